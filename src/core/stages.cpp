@@ -1,0 +1,34 @@
+#include "core/stages.hpp"
+
+#include <algorithm>
+
+namespace spindrift {
+
+Stages::Scope::Scope(Stages& stages, std::size_t index)
+    : stages_(stages), index_(index), start_(std::chrono::steady_clock::now()) {}
+
+Stages::Scope::~Scope() {
+  Stage& stage = stages_.stages_[index_];
+  stage.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  ++stage.passes;
+}
+
+Stages::Scope Stages::time(std::string_view name) {
+  const auto found =
+      std::find_if(stages_.begin(), stages_.end(), [&](const Stage& stage) { return stage.name == name; });
+  const auto index = static_cast<std::size_t>(found - stages_.begin());
+  if (found == stages_.end()) stages_.push_back({std::string(name)});
+  return Scope(*this, index);
+}
+
+std::uint64_t Stages::passes(std::string_view name) const {
+  std::uint64_t n = 0;
+  for (const Stage& stage : stages_) {
+    const bool below =
+        stage.name.size() > name.size() && stage.name.starts_with(name) && stage.name[name.size()] == '.';
+    if (stage.name == name || below) n += stage.passes;
+  }
+  return n;
+}
+
+}  // namespace spindrift

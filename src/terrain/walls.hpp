@@ -1,0 +1,46 @@
+#pragma once
+/// Everything solid that particles meet: the terrain, where there is one, and the closed sides of the domain.
+
+#include <array>
+#include <optional>
+
+#include "terrain/terrain.hpp"
+
+namespace spindrift {
+
+enum class Side : std::uint8_t { open, closed };
+
+template <int Dim> struct Walls {
+  std::optional<Terrain<Dim>> terrain;
+  Box<Dim> domain;
+  std::array<std::array<Side, 2>, Dim> sides{};  ///< [axis][0 lower, 1 upper]
+
+  /// Calls f(distance, normal) for the terrain and for every closed side nearer than `reach` [m].
+  template <class F> void for_each_near(const Vec<Dim>& x, double reach, F&& f) const {
+    if (terrain) {
+      const Foot<Dim> foot = terrain->foot(x);
+      if (foot.distance < reach) f(foot.distance, foot.normal);
+    }
+    for_each_side_near(x, reach, f);
+  }
+
+  /// The same for the closed sides of the domain alone.
+  template <class F> void for_each_side_near(const Vec<Dim>& x, double reach, F&& f) const {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const double below = x[axis] - domain.lower[axis], above = domain.upper[axis] - x[axis];
+      if (sides[axis][0] == Side::closed && below < reach) f(below, Vec<Dim>(Vec<Dim>::Unit(axis)));
+      if (sides[axis][1] == Side::closed && above < reach) f(above, Vec<Dim>(-Vec<Dim>::Unit(axis)));
+    }
+  }
+
+  /// Whether x lies beyond an open side.
+  bool outside(const Vec<Dim>& x) const {
+    for (int axis = 0; axis < Dim; ++axis) {
+      if (sides[axis][0] == Side::open && x[axis] < domain.lower[axis]) return true;
+      if (sides[axis][1] == Side::open && x[axis] > domain.upper[axis]) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace spindrift
