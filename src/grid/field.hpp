@@ -2,6 +2,8 @@
 /// A scalar on a box of grid points, first axis fastest. Access is by index or by rows along the first axis, so that
 /// the layout stays private.
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -33,8 +35,31 @@ class Field {
     i[0] = 0;
     return {data_.data() + flat<Dim>(i, shape_), static_cast<std::size_t>(shape_[0])};
   }
+  /// Rows by number, in memory order.
+  std::size_t n_rows() const { return shape_[0] == 0 ? 0 : data_.size() / static_cast<std::size_t>(shape_[0]); }
+  std::span<T> row(std::size_t r) {
+    const auto length = static_cast<std::size_t>(shape_[0]);
+    return {data_.data() + r * length, length};
+  }
+  std::span<const T> row(std::size_t r) const {
+    const auto length = static_cast<std::size_t>(shape_[0]);
+    return {data_.data() + r * length, length};
+  }
+  /// Index of the first point of row r.
+  Index<Dim> row_start(std::size_t r) const { return unflat<Dim>(r * static_cast<std::size_t>(shape_[0]), shape_); }
+  /// Distance in memory of neighbours along `axis`.
+  std::ptrdiff_t stride(int axis) const {
+    std::ptrdiff_t s = 1;
+    for (int k = 0; k < axis; ++k) s *= shape_[k];
+    return s;
+  }
   std::span<T> values() { return data_; }
   std::span<const T> values() const { return data_; }
+
+  /// Rows a task of a parallel loop takes: about 4096 points.
+  std::size_t rows_per_task() const {
+    return static_cast<std::size_t>(std::max(1, 4096 / std::max(1, shape_[0])));
+  }
 
   void fill(T value) { data_.assign(data_.size(), value); }
   void swap(Field& other) {

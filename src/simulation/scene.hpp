@@ -1,6 +1,7 @@
 #pragma once
 /// Every parameter of a run, in SI units and radians. A section that the scene file does not name is an empty optional:
-/// its physics does not exist. Names, units, ranges, defaults and docs of the keys stand in registry.cpp.
+/// its physics does not exist. The values here are the preset "physical"; names, units, ranges and docs of the keys
+/// stand in registry.cpp.
 
 #include <array>
 #include <cstdint>
@@ -84,7 +85,7 @@ struct SuspensionSection {
   std::string scheme = "maccormack";  ///< "semi_lagrangian" | "maccormack"
   double viscosity = 0;               ///< kinematic, of the air [m^2 s^-1]
   double diffusivity = 0;             ///< of smoke [m^2 s^-1]
-  double settling_speed = 0;          ///< of smoke [m s^-1]
+  double settling_speed = 0.5;        ///< of smoke [m s^-1]; 0: off (R19)
   double cfl = 1;                     ///< of the cell size
   double tolerance = 1e-4;            ///< relative residual of the pressure solve
   int max_iterations = 200;

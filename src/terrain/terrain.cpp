@@ -85,17 +85,18 @@ template <int Dim> double Terrain<Dim>::height(double x) const {
   return z;
 }
 
-template <int Dim> Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& position) const {
+template <int Dim> Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& position, double reach) const {
   const Vec<2> x = in_profile(position);
   const std::size_t last = vertices_.size() - 2;
 
   // The surface straight above or below bounds how far away, and so how far aside, the nearest point can be.
-  const double reach = std::abs(x[1] - height(x[0]));
+  const double above = x[1] - height(x[0]);
+  const double aside = std::min(reach, std::abs(above));
   double best = std::numeric_limits<double>::infinity(), best_t = 0;
   std::size_t best_piece = 0;
   Vec<2> best_point = x;
-  for (std::size_t piece = first_piece_reaching(x[0] - reach);
-       piece <= last && (piece == 0 || vertices_[piece][0] <= x[0] + reach); ++piece) {
+  for (std::size_t piece = first_piece_reaching(x[0] - aside);
+       piece <= last && (piece == 0 || vertices_[piece][0] <= x[0] + aside); ++piece) {
     const Vec<2>& a = vertices_[piece];
     const Vec<2> edge = vertices_[piece + 1] - a;
     double t = (x - a).dot(edge) / edge.squaredNorm();
@@ -106,6 +107,12 @@ template <int Dim> Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& position) const 
     if (distance < best) {
       best = distance, best_t = t, best_piece = piece, best_point = point;
     }
+  }
+
+  if (best >= reach * reach) {
+    Foot<Dim> far;
+    far.distance = std::copysign(reach, above);
+    return far;
   }
 
   Vec<2> normal = piece_normal(best_piece);

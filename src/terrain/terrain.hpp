@@ -2,6 +2,7 @@
 /// The ground: a profile in the x-z plane, in 3D extruded along y. Signed distance, normal and slope angle.
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "core/vec.hpp"
@@ -23,8 +24,9 @@ template <int Dim> class Terrain {
   /// a value that is not finite, a vertical end piece.
   explicit Terrain(std::vector<Vec<2>> vertices);
 
-  /// The nearest point of the surface. Cost: O(1) near the surface by a table of pieces over x.
-  Foot<Dim> foot(const Vec<Dim>& x) const;
+  /// The nearest point of the surface; where it is farther than `reach` [m] only the distance's sign is right, and it is
+  /// `reach` or more. Cost: the pieces within min(reach, height over the surface) aside of x.
+  Foot<Dim> foot(const Vec<Dim>& x, double reach = std::numeric_limits<double>::infinity()) const;
 
   /// The position at arc length (and y) `place` and normal distance `distance` from the surface: the inverse of foot()
   /// where the surface is smooth.

@@ -60,6 +60,8 @@ TEMPLATE_TEST_CASE_SIG("Foot against brute force over a bumpy profile", "[terrai
     CHECK(std::abs(foot.distance) == Approx(nearest).margin(1e-12));
     CHECK((foot.distance >= 0) == (z >= terrain.height(x)));
     CHECK(foot.normal.norm() == Approx(1));
+    const Foot<Dim> near = terrain.foot(at<Dim>(x, z), 1.5);
+    CHECK(near.distance == (nearest < 1.5 ? foot.distance : std::copysign(1.5, foot.distance)));
     CHECK((terrain.position(foot.place, 0) - at<Dim>(x, z)).norm() == Approx(std::abs(foot.distance)).margin(1e-9));
   }
 }

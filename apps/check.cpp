@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "plain_text.hpp"
+#include "simulation/plan.hpp"
+#include "simulation/scene_reader.hpp"
+#include "simulation/setup.hpp"
+
+namespace spindrift {
+namespace {
+
+template <class... T> void row(std::string_view name, fmt::format_string<T...> format, T&&... values) {
+  fmt::print("{:<11} {}\n", name, fmt::format(format, std::forward<T>(values)...));
+}
+
+ExitCode check(const SceneArguments& arguments) {
+  const Scene scene = read_scene(arguments.file, arguments.settings);
+  const Plan plan = plan_scene(scene);
+  const std::filesystem::path folder = "runs/" + scene.scene.name;
+  require_fit(scene, plan, folder);
+  scene.scene.dim == 2 ? static_cast<void>(make_walls<2>(scene)) : static_cast<void>(make_walls<3>(scene));
+
+  std::string grid = "none";
+  for (std::size_t k = 0; k < plan.grid.size(); ++k)
+    grid = k == 0 ? count_text(plan.grid[k]) : grid + " x " + count_text(plan.grid[k]);
+  row("scene", "{}, {}D, {:g} s", scene.scene.name, scene.scene.dim, scene.scene.end_time);
+  row("particles", "{} released, {} in the cover", count_text(plan.n_release), count_text(plan.n_cover));
+  row("cells", "{} ({})", count_text(plan.n_cells), grid);
+  row("frames", "{}", count_text(plan.n_frames));
+  row("memory", "about {}, {} available", bytes_text(plan.memory), bytes_text(memory_available()));
+  row("disk", "about {}, {} left at {}", bytes_text(plan.disk), bytes_text(disk_available(folder)), folder.string());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("SCENE.toml", arguments.file, "scene file")->required()->type_name("");
+  command.add_option("--set", arguments.settings, "change one value of the scene, as in --set terrain.angle='40 deg'")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_check(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("check", "Check a scene without running it; prints what the run would need");
+  const auto arguments = std::make_shared<SceneArguments>();
+  add_scene_arguments(*command, *arguments);
+  command->footer("Example:  spindrift check my_slope.toml --set suspension.cell_size=0.5");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
+}
+
+}  // namespace spindrift

@@ -1,0 +1,28 @@
+#pragma once
+/// The commands of the program, one file each.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace spindrift {
+
+/// What the command line asked for: filled by the parser, called by main.
+using Command = std::function<ExitCode()>;
+
+void add_run(CLI::App& app, Command& chosen);
+void add_check(CLI::App& app, Command& chosen);
+void add_info(CLI::App& app, Command& chosen);
+
+/// A scene file and what the command line changes in it.
+struct SceneArguments {
+  std::string file;
+  std::vector<std::string> settings;
+};
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
+
+}  // namespace spindrift

@@ -1,0 +1,43 @@
+#pragma once
+/// The suspension's lower boundary: the cover's surface, which sinks as snow is entrained, or the bare terrain (R21).
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "grid/mac_grid.hpp"
+#include "sph/cover.hpp"
+#include "terrain/terrain.hpp"
+
+namespace spindrift {
+
+template <int Dim>
+class GroundSurface {
+ public:
+  /// cover   null: bare ground
+  GroundSurface(const Terrain<Dim>& terrain, const MacGrid<Dim>& grid, const Cover<Dim>* cover);
+
+  /// Signed distance to the boundary at the grid's nodes [m], positive in the air; right near the boundary, elsewhere
+  /// only its sign.
+  const Field<Dim>& node_distance() const { return distance_; }
+
+  /// Follows the cover's surface where snow was taken from `places`. Cost: the nodes near the surface.
+  /// Returns the columns of cells [begin, end) along the first axis whose nodes have moved.
+  std::array<int, 2> follow(const Cover<Dim>& cover, std::span<const Vec<Dim>> places);
+
+  std::size_t bytes() const { return distance_.bytes() + spindrift::bytes(near_); }
+
+ private:
+  struct Near {
+    std::size_t node;
+    double terrain_distance;  ///< [m]
+    Vec<Dim - 1> place;       ///< of the node's foot on the terrain
+    int column;               ///< of the node along the first axis
+  };
+  MacGrid<Dim> grid_;
+  double reach_;  ///< distance up to which nodes follow the surface [m]
+  Field<Dim> distance_;
+  std::vector<Near> near_;
+};
+
+}  // namespace spindrift

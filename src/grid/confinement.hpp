@@ -1,0 +1,29 @@
+#pragma once
+/// Vorticity confinement (Fedkiw, Stam, Jensen 2001): gives back some of the swirl that advection smears out.
+
+#include <array>
+
+#include "grid/ground.hpp"
+
+namespace spindrift {
+
+/// Holds memory only once it has been used.
+template <int Dim>
+class Confinement {
+ public:
+  /// du = dt strength dx (N x omega),   N = grad |omega| / |grad |omega||
+  /// with omega and N at cell centres (central differences), on the faces with a flow area whose two cells have open
+  /// neighbours all around: nothing acts at walls. Vanishes with dx.   Source: paper Sec. 4.2, f^conf.
+  /// u  in-out: [m/s];   dt  [s]
+  void apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area, const MacGrid<Dim>& grid, double strength, double dt);
+
+  std::size_t bytes() const;
+
+ private:
+  std::array<Field<Dim>, Dim> centre_;  ///< velocity at cell centres, then the force
+  std::array<Field<Dim>, n_curl<Dim>> curl_;
+  Field<Dim> size_;                     ///< |omega|
+  Field<Dim> inner_;                    ///< 1: all faces of the cell have a flow area
+};
+
+}  // namespace spindrift

@@ -1,0 +1,140 @@
+#include "grid/poisson_operator.hpp"
+
+#include <limits>
+
+namespace spindrift {
+
+namespace {
+
+constexpr double closed = std::numeric_limits<double>::infinity();
+
+/// Sets the ghost cells beyond one side of the box.
+template <int Dim>
+void set_ghosts(std::vector<double>& resistance, const ParityLayout<Dim>& layout, int axis, int beyond, double value) {
+  Index<Dim> shape = layout.cells;
+  shape[axis] = 1;
+  for_each_index<Dim>(shape, [&](Index<Dim> i) {
+    i[axis] = beyond;
+    resistance[static_cast<std::size_t>(layout.at(i))] = value;
+  });
+}
+
+template <int Dim>
+RowSpan open_span(std::span<const CellKind> kind) {
+  const auto is_open = [](CellKind k) { return k == CellKind::open; };
+  const auto first = std::find_if(kind.begin(), kind.end(), is_open);
+  if (first == kind.end()) return {};
+  const auto last = std::find_if(kind.rbegin(), kind.rend(), is_open);
+  return {static_cast<int>(first - kind.begin()) / 2, static_cast<int>(kind.rend() - last - 1) / 2 + 1};
+}
+
+}  // namespace
+
+template <int Dim>
+PoissonOperator<Dim>::PoissonOperator(const Index<Dim>& cells, const std::array<std::array<Side, 2>, Dim>& sides)
+    : layout(cells), spans(layout.n_rows), resistance_(layout.size, closed) {
+  for (auto& c : conductance) c.assign(layout.size, 0.0);
+  for (int axis = 0; axis < Dim; ++axis) {
+    set_ghosts(resistance_, layout, axis, -1, sides[axis][0] == Side::open ? 0 : closed);
+    set_ghosts(resistance_, layout, axis, cells[axis], sides[axis][1] == Side::open ? 0 : closed);
+  }
+}
+
+template <int Dim>
+void PoissonOperator<Dim>::build(const Field<Dim>& density, const FaceField<Dim>& open,
+                                 const Field<Dim, CellKind>& kind) {
+  const int n = layout.cells[0];
+  layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
+    const auto kinds = kind.row(start);
+    const auto rho = density.row(start);
+    spans[number] = open_span<Dim>(kinds);
+    double* even = resistance_.data() + layout.row(start);
+    double* odd = even + layout.pitch;
+    const auto value = [&](int i) { return kinds[i] == CellKind::open ? rho[i] : closed; };
+    for (int m = 0; m < n / 2; ++m) {
+      even[m] = value(2 * m);
+      odd[m] = value(2 * m + 1);
+    }
+    if (n % 2 == 1) even[n / 2] = value(n - 1);
+  });
+
+  for (int axis = 0; axis < Dim; ++axis) {
+    face_rows<Dim>(layout.cells, axis).for_each_row([&](std::size_t, const Index<Dim>& start) {
+      const RowSpan span = face_span(axis, start);
+      const std::ptrdiff_t row = layout.row(start);
+      double* even = conductance[axis].data() + row;
+      double* odd = even + layout.pitch;
+      const auto [begin, end] = span;
+      std::fill(even, even + begin, 0.0);
+      std::fill(odd, odd + begin, 0.0);
+      std::fill(even + end, even + layout.pitch, 0.0);
+      std::fill(odd + end, odd + layout.pitch, 0.0);
+
+      const double* fraction = open[axis].row(start).data();
+      const int n_faces = open[axis].shape()[0];
+      const double* r_even = resistance_.data() + row;
+      const double* r_odd = r_even + layout.pitch;
+      const double* below_even = axis == 0 ? r_odd - 1 : r_even - layout.stride[axis];
+      const double* below_odd = axis == 0 ? r_even : r_odd - layout.stride[axis];
+      const int pairs = std::min(end, n_faces / 2);
+      for (int m = begin; m < pairs; ++m) {
+        even[m] = 2 * fraction[2 * m] / (below_even[m] + r_even[m]);
+        odd[m] = 2 * fraction[2 * m + 1] / (below_odd[m] + r_odd[m]);
+      }
+      for (int m = std::max(pairs, begin); m < end; ++m) {
+        even[m] = 2 * m < n_faces ? 2 * fraction[2 * m] / (below_even[m] + r_even[m]) : 0;
+        odd[m] = 0;
+      }
+    });
+  }
+}
+
+template <int Dim>
+RowSpan PoissonOperator<Dim>::face_span(int axis, const Index<Dim>& start) const {
+  if (axis == 0) {
+    const RowSpan span = spans[layout.row_number(start)];
+    return span.empty() ? RowSpan{} : RowSpan{span.begin, span.end + 1};
+  }
+  const RowSpan above = start[axis] < layout.cells[axis] ? spans[layout.row_number(start)] : RowSpan{};
+  return start[axis] > 0 ? united(above, spans[layout.row_number(shifted<Dim>(start, axis, -1))]) : above;
+}
+
+template <int Dim>
+double PoissonOperator<Dim>::apply(std::vector<double>& y, const std::vector<double>& x) const {
+  return layout.sum_over_rows([&](std::size_t number, const Index<Dim>& start) {
+    double sum = 0;
+    for (int parity = 0; parity < 2; ++parity) {
+      const RowSpan span = layout.in_parity(spans[number], parity);
+      const std::ptrdiff_t own = layout.own(start, parity), left = layout.left(start, parity), right = left + 1;
+      const double* xc = x.data() + own;
+      const double* xl = x.data() + left;
+      const double* xr = x.data() + right;
+      const double* cl = conductance[0].data() + own;
+      const double* cr = conductance[0].data() + right;
+      double* out = y.data() + own;
+      sum += lane_sum(span.begin, span.end, [&](int m) {
+        double value = cl[m] * (xc[m] - xl[m]) + cr[m] * (xc[m] - xr[m]);
+        for (int k = 1; k < Dim; ++k) {
+          const std::ptrdiff_t s = layout.stride[k];
+          const double* c = conductance[k].data() + own;
+          value += c[m] * (xc[m] - xc[m - s]) + c[m + s] * (xc[m] - xc[m + s]);
+        }
+        out[m] = value;
+        return xc[m] * value;
+      });
+    }
+    return sum;
+  });
+}
+
+template <int Dim>
+std::size_t PoissonOperator<Dim>::bytes() const {
+  std::size_t sum = spindrift::bytes(spans, resistance_);
+  for (const auto& c : conductance) sum += spindrift::bytes(c);
+  return sum;
+}
+
+template struct PoissonOperator<2>;
+template struct PoissonOperator<3>;
+
+}  // namespace spindrift

@@ -1,0 +1,169 @@
+#include "grid/pressure_projection.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace spindrift {
+
+template <int Dim>
+PressureProjection<Dim>::PressureProjection(const MacGrid<Dim>& grid, const Sides& sides)
+    : sides_(sides),
+      dx_(grid.dx),
+      pressure_(grid.cells, 0.0),
+      poisson_(grid.cells, sides),
+      solver_(poisson_.layout) {}
+
+template <int Dim>
+ProjectionResult PressureProjection<Dim>::project(FaceField<Dim>& u, const Field<Dim>& density,
+                                                  const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
+                                                  double dt, const ProjectionOptions& options) {
+  SPINDRIFT_CHECK(dt > 0);
+  SPINDRIFT_CHECK(kind.shape() == pressure_.shape() && density.shape() == pressure_.shape());
+  const double to_potential = dt / dx_;
+  poisson_.build(density, open, kind);
+  components_.find(kind, open, sides_);
+  set_right_side(u, open, kind);
+  ProjectionResult result;
+  result.unmatched_flux = subtract_closed_means(solver_.right_side);
+  set_first_guess(kind, to_potential);
+  const auto solved = solver_.solve(poisson_, options.tolerance, options.max_iterations);
+  result.iterations = solved.iterations;
+  result.residual = solved.residual;
+  result.converged = solved.converged;
+  if (!std::isfinite(solved.residual)) {
+    solver_.clear();
+    return result;
+  }
+  subtract_closed_means(solver_.solution);
+  set_pressure(kind, 1 / to_potential);
+  if (solved.iterations > 0 || solved.residual > 0) correct(u, open);
+  return result;
+}
+
+/// b_c = - sum_f open_f u_f . n, zero where a cell is not open.
+template <int Dim>
+void PressureProjection<Dim>::set_right_side(const FaceField<Dim>& u, const FaceField<Dim>& open,
+                                             const Field<Dim, CellKind>& kind) {
+  const ParityLayout<Dim>& layout = poisson_.layout;
+  layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
+    const RowSpan span = poisson_.spans[number];
+    const CellKind* kinds = kind.row(start).data();
+    std::array<const double*, Dim> lower_u, upper_u, lower_open, upper_open;
+    for (int k = 0; k < Dim; ++k) {
+      const Index<Dim> above = k == 0 ? start : shifted<Dim>(start, k, 1);
+      const int right = k == 0 ? 1 : 0;
+      lower_u[k] = u[k].row(start).data();
+      upper_u[k] = u[k].row(above).data() + right;
+      lower_open[k] = open[k].row(start).data();
+      upper_open[k] = open[k].row(above).data() + right;
+    }
+    const auto inflow = [&](int i) {
+      double sum = 0;
+      for (int k = 0; k < Dim; ++k) sum += lower_open[k][i] * lower_u[k][i] - upper_open[k][i] * upper_u[k][i];
+      return kinds[i] == CellKind::open ? sum : 0.0;
+    };
+    double* even = solver_.right_side.data() + layout.row(start);
+    double* odd = even + layout.pitch;
+    const int pairs = std::min(span.end, layout.cells[0] / 2);
+    for (int m = span.begin; m < pairs; ++m) {
+      even[m] = inflow(2 * m);
+      odd[m] = inflow(2 * m + 1);
+    }
+    for (int m = std::max(pairs, span.begin); m < span.end; ++m) even[m] = inflow(2 * m);
+  });
+}
+
+/// Makes the mean over each component without an open side zero; returns the largest of these means.
+template <int Dim>
+double PressureProjection<Dim>::subtract_closed_means(std::vector<double>& values) {
+  const auto& components = components_.all();
+  if (std::all_of(components.begin(), components.end(), [](const auto& c) { return c.reaches_open_side; })) return 0;
+  const ParityLayout<Dim>& layout = poisson_.layout;
+  const auto for_each_closed = [&](auto&& f) {
+    components_.for_each_run([&](const Index<Dim>& start, const auto& run) {
+      if (components[run.component].reaches_open_side) return;
+      const std::ptrdiff_t row = layout.row(start);
+      for (int i = run.begin; i < run.end; ++i) {
+        f(run.component, values[static_cast<std::size_t>(row + (i & 1) * layout.pitch + i / 2)]);
+      }
+    });
+  };
+  mean_.assign(components.size(), 0.0);
+  for_each_closed([&](std::size_t component, double value) { mean_[component] += value; });
+  double largest = 0;
+  for (std::size_t c = 0; c < mean_.size(); ++c) {
+    mean_[c] /= static_cast<double>(components[c].n_cells);
+    largest = std::max(largest, std::abs(mean_[c]));
+  }
+  for_each_closed([&](std::size_t component, double& value) { value -= mean_[component]; });
+  return largest;
+}
+
+template <int Dim>
+void PressureProjection<Dim>::set_first_guess(const Field<Dim, CellKind>& kind, double to_potential) {
+  const ParityLayout<Dim>& layout = poisson_.layout;
+  layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
+    const RowSpan span = poisson_.spans[number];
+    const auto p = std::as_const(pressure_).row(start);
+    const auto kinds = kind.row(start);
+    double* even = solver_.solution.data() + layout.row(start);
+    const int end = std::min(2 * span.end, layout.cells[0]);
+    for (int i = 2 * span.begin; i < end; ++i) {
+      even[(i & 1) * layout.pitch + i / 2] = kinds[i] == CellKind::open ? p[i] * to_potential : 0;
+    }
+  });
+}
+
+template <int Dim>
+void PressureProjection<Dim>::set_pressure(const Field<Dim, CellKind>& kind, double to_pressure) {
+  const ParityLayout<Dim>& layout = poisson_.layout;
+  layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
+    const RowSpan span = poisson_.spans[number];
+    const auto p = pressure_.row(start);
+    const auto kinds = kind.row(start);
+    const double* even = solver_.solution.data() + layout.row(start);
+    const int begin = 2 * span.begin, end = std::max(begin, std::min(2 * span.end, layout.cells[0]));
+    std::fill(p.begin(), p.begin() + begin, 0.0);
+    std::fill(p.begin() + end, p.end(), 0.0);
+    for (int i = begin; i < end; ++i) {
+      p[i] = kinds[i] == CellKind::open ? even[(i & 1) * layout.pitch + i / 2] * to_pressure : 0;
+    }
+  });
+}
+
+/// u_f -= (phi_upper - phi_lower) / rho_f on the faces that conduct.
+template <int Dim>
+void PressureProjection<Dim>::correct(FaceField<Dim>& u, const FaceField<Dim>& open) const {
+  const ParityLayout<Dim>& layout = poisson_.layout;
+  for (int axis = 0; axis < Dim; ++axis) {
+    face_rows<Dim>(layout.cells, axis).for_each_row([&](std::size_t, const Index<Dim>& start) {
+      double* v = u[axis].row(start).data();
+      const double* fraction = open[axis].row(start).data();
+      const RowSpan span = poisson_.face_span(axis, start);
+      for (int parity = 0; parity < 2; ++parity) {
+        const std::ptrdiff_t own = layout.own(start, parity);
+        const std::ptrdiff_t below = axis > 0 ? own - layout.stride[axis] : layout.left(start, parity);
+        const double* c = poisson_.conductance[axis].data() + own;
+        const double* phi = solver_.solution.data() + own;
+        const double* phi_below = solver_.solution.data() + below;
+        const int end = std::min(span.end, (u[axis].shape()[0] + 1 - parity) / 2);
+        for (int m = span.begin; m < end; ++m) {
+          const int i = 2 * m + parity;
+          v[i] -= c[m] > 0 ? c[m] / fraction[i] * (phi[m] - phi_below[m]) : 0;
+        }
+      }
+    });
+  }
+}
+
+template <int Dim>
+std::size_t PressureProjection<Dim>::bytes() const {
+  return pressure_.bytes() + components_.bytes() + poisson_.bytes() + solver_.bytes() + spindrift::bytes(mean_);
+}
+
+template class PressureProjection<2>;
+template class PressureProjection<3>;
+
+}  // namespace spindrift

@@ -1,0 +1,308 @@
+#include "grid/smoke_transport.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "grid/pack.hpp"
+
+namespace spindrift {
+namespace {
+
+constexpr double tiny = 1e-300;
+constexpr double largest_share = 0.98;  ///< of a cell's volume that may leave it at once: room for round-off
+
+/// Mass that passes a face with the volume `flow` from the left cell l to the right one r (or back, if negative); ll and
+/// rr are the cells beyond. density, volume: of the cells; room: volume of the donor that stays.
+template <class T>
+T limited_flux(T flow, T density_ll, T density_l, T density_r, T density_rr, T volume_l, T volume_r, T room_l,
+               T room_r) {
+  const T donor = flow > 0 ? density_l : density_r, other = flow > 0 ? density_r : density_l;
+  const T behind = flow > 0 ? density_ll : density_rr;
+  const T size = magnitude(flow), room = flow > 0 ? room_l : room_r;
+  const T c = size / ((flow > 0 ? volume_l : volume_r) + tiny);
+  const T ahead = other - donor, back = donor - behind;
+  const T ahead_size = magnitude(ahead), back_size = magnitude(back);
+  const T smooth = size * (1 - c) * ((2 - c) * ahead_size + (1 + c) * back_size) * (1.0 / 6);
+  const T excess = larger(smaller(smaller(size * ahead_size, smooth), 0.999 * room * back_size), T{});
+  const T correction = ahead * back > 0 ? excess : T{};
+  const T mass = size * donor + (ahead > 0 ? correction : -correction);
+  return flow > 0 ? mass : -mass;
+}
+
+Span joined(Span a, Span b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
+
+template <int Dim>
+std::size_t row_of(const Index<Dim>& cell, const Index<Dim>& shape) {
+  return flat<Dim>(cell, shape) / static_cast<std::size_t>(shape[0]);
+}
+
+}  // namespace
+
+template <int Dim>
+SmokeTransport<Dim>::SmokeTransport(const MacGrid<Dim>& grid, const std::array<std::array<Side, 2>, Dim>& sides)
+    : grid_(grid),
+      sides_(sides),
+      volume_(grid.cells),
+      swept_volume_(grid.cells),
+      density_(grid.cells),
+      outflow_(grid.cells),
+      flux_(make_face_field<Dim>(grid)) {
+  spans_.resize(volume_.n_rows());
+  before_.resize(volume_.n_rows());
+}
+
+template <int Dim>
+template <class T>
+T SmokeTransport<Dim>::Flow::through(int axis, std::size_t face) const {
+  return dt * load<T>(&flow_area[axis][face]) * (load<T>(&u[axis][face]) + settling[axis]);
+}
+
+template <int Dim>
+SmokeFlow SmokeTransport<Dim>::advance(Field<Dim>& smoke, const FaceField<Dim>& u, const FaceField<Dim>& flow_area,
+                                       const Ground<Dim>& ground, const Vec<Dim>& settling, double dt) {
+  SmokeFlow done;
+  if (!find_spans(smoke)) return done;
+  small_cells_.find(flow_area, ground);
+  Flow flow{u, flow_area, settling, dt};
+  double largest = largest_outflow(flow, ground);
+  if (largest > largest_share) {  // smoke may get anywhere
+    std::fill(spans_.begin(), spans_.end(), Span{0, grid_.cells[0]});
+    largest = largest_outflow(flow, ground);
+  }
+  if (!(largest < 1e6)) throw Error(ExitCode::unstable, "smoke would have to cross more than a million cells in a step");
+  if (largest > 0) {
+    done.substeps = std::max(1, static_cast<int>(std::ceil(largest / largest_share)));
+    flow.dt = dt / done.substeps;
+    small_cells_.share(smoke, volume_);
+    if (done.substeps == 1) find_spans(smoke);
+    for (int substep = 0; substep < done.substeps; ++substep) {
+      start_substep(smoke);
+      for (int axis = 0; axis < Dim; ++axis) {
+        widen_spans(axis);
+        set_flux(axis, flow);
+        update(axis, smoke, flow);
+        done.outflow += outflow(axis);
+      }
+    }
+    small_cells_.share(smoke, ground.volume());
+  }
+  if (!settling.isZero()) done.deposited = deposit(smoke, ground, settling, dt);
+  return done;
+}
+
+template <int Dim>
+bool SmokeTransport<Dim>::find_spans(const Field<Dim>& smoke) {
+  const auto has_smoke = [](double m) { return m != 0; };
+  bool any = false;
+  for (std::size_t r = 0; r < spans_.size(); ++r) {
+    const auto row = smoke.row(r);
+    const auto first = std::find_if(row.begin(), row.end(), has_smoke);
+    spans_[r] = {};
+    if (first == row.end()) continue;
+    const auto last = std::find_if(row.rbegin(), row.rend(), has_smoke);
+    spans_[r] = {static_cast<int>(first - row.begin()), static_cast<int>(row.rend() - last)};
+    any = true;
+  }
+  return any;
+}
+
+/// By the one cell that smoke can move along the axis.
+template <int Dim>
+void SmokeTransport<Dim>::widen_spans(int axis) {
+  spans_.swap(before_);
+  const auto step = axis == 0 ? 0 : static_cast<std::size_t>(volume_.stride(axis) / volume_.stride(1));
+  for (std::size_t r = 0; r < spans_.size(); ++r) {
+    Span span = before_[r];
+    if (axis == 0) {
+      if (!span.empty()) span = {std::max(span.begin - 1, 0), std::min(span.end + 1, grid_.cells[0])};
+    } else {
+      const int i = volume_.row_start(r)[axis];
+      if (i > 0) span = joined(span, before_[r - step]);
+      if (i + 1 < grid_.cells[axis]) span = joined(span, before_[r + step]);
+    }
+    spans_[r] = span;
+  }
+}
+
+/// Largest part of its volume that leaves a cell in dt, after small cells and their roots have lent each other volume:
+/// over all cells that smoke may reach in one substep. Sets volume_.
+template <int Dim>
+double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>& ground) {
+  for (int axis = 0; axis < Dim; ++axis) widen_spans(axis);
+  parallel_for(
+      spans_.size(),
+      [&](std::size_t r) {
+        std::ranges::copy(ground.volume().row(r), volume_.row(r).begin());
+        std::ranges::fill(outflow_.row(r), 0.0);
+        if (spans_[r].empty()) return;
+        const Index<Dim> start = volume_.row_start(r);
+        double* out = outflow_.row(r).data();
+        for (int axis = 0; axis < Dim; ++axis) {
+          const std::size_t first = flat<Dim>(start, grid_.faces(axis));
+          const auto next = static_cast<std::size_t>(flux_[axis].stride(axis));
+          for_each_pack(spans_[r].begin, spans_[r].end, [&]<class T>(int i) {
+            const std::size_t face = first + static_cast<std::size_t>(i);
+            const T below = flow.template through<T>(axis, face), above = flow.template through<T>(axis, face + next);
+            store<T>(out + i, load<T>(out + i) + (larger(above, T{}) - smaller(below, T{})));
+          });
+        }
+      },
+      volume_.rows_per_task());
+  small_cells_.lend(volume_, outflow_, largest_share);
+  return parallel_max(spans_.size(), 0.0, [&](std::size_t r) {
+    const double *out = outflow_.row(r).data(), *volume = volume_.row(r).data();
+    return max_packs(spans_[r].begin, spans_[r].end,
+                     [&]<class T>(int i) { return load<T>(out + i) / (load<T>(volume + i) + tiny); });
+  });
+}
+
+template <int Dim>
+void SmokeTransport<Dim>::start_substep(const Field<Dim>& smoke) {
+  parallel_for(
+      spans_.size(),
+      [&](std::size_t r) {
+        std::ranges::copy(volume_.row(r), swept_volume_.row(r).begin());
+        const double *mass = smoke.row(r).data(), *volume = volume_.row(r).data();
+        double* density = density_.row(r).data();
+        std::ranges::fill(density_.row(r), 0.0);
+        for_each_pack(spans_[r].begin, spans_[r].end, [&]<class T>(int i) {
+          const T v = load<T>(volume + i);
+          store<T>(density + i, v > 0 ? load<T>(mass + i) / (v + tiny) : T{});
+        });
+      },
+      volume_.rows_per_task());
+}
+
+/// Fluxes through all faces of the cells in spans_.
+template <int Dim>
+void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow) {
+  Field<Dim>& flux = flux_[axis];
+  const int n = grid_.cells[axis];
+  const auto cell = density_.stride(axis), face = flux.stride(axis);
+  // Faces with less than two cells on a side: upwind.
+  const auto upwind = [&](const Index<Dim>& i) {
+    const double q = flow.template through<double>(axis, flat<Dim>(i, flux.shape()));
+    const double below = i[axis] > 0 ? density_[shifted<Dim>(i, axis, -1)] : 0, above = i[axis] < n ? density_[i] : 0;
+    flux[i] = q > 0 ? q * below : q * above;
+  };
+  const auto limited = [&](const Index<Dim>& start, int begin, int end) {
+    const std::size_t first = flat<Dim>(start, flux.shape());
+    const double *density = density_.values().data() + flat<Dim>(start, grid_.cells);
+    const double *volume = swept_volume_.values().data() + flat<Dim>(start, grid_.cells);
+    for_each_pack(begin, end, [&]<class T>(int i) {
+      const std::size_t f = first + static_cast<std::size_t>(i);
+      const T q = flow.template through<T>(axis, f);
+      const T below = flow.template through<T>(axis, f - static_cast<std::size_t>(face));
+      const T above = flow.template through<T>(axis, f + static_cast<std::size_t>(face));
+      const T volume_l = load<T>(volume + i - cell), volume_r = load<T>(volume + i);
+      const T room_l = volume_l - (larger(q, T{}) - smaller(below, T{}));
+      const T room_r = volume_r - (larger(above, T{}) - smaller(q, T{}));
+      store<T>(&flux[f], limited_flux<T>(q, load<T>(density + i - 2 * cell), load<T>(density + i - cell),
+                                         load<T>(density + i), load<T>(density + i + cell), volume_l, volume_r, room_l,
+                                         room_r));
+    });
+  };
+  parallel_for(
+      flux.n_rows(),
+      [&](std::size_t r) {
+        const Index<Dim> start = flux.row_start(r);
+        Span span;
+        if (axis == 0) {
+          span = spans_[r];
+          if (span.empty()) return;
+          ++span.end;
+        } else {
+          if (start[axis] > 0) span = spans_[row_of<Dim>(shifted<Dim>(start, axis, -1), grid_.cells)];
+          if (start[axis] < n) span = joined(span, spans_[row_of<Dim>(start, grid_.cells)]);
+        }
+        Span inner{std::max(span.begin, axis == 0 ? 2 : 0), std::min(span.end, axis == 0 ? n - 1 : grid_.cells[0])};
+        if (axis != 0 && (start[axis] < 2 || start[axis] > n - 2)) inner = {};
+        if (inner.empty()) inner = {span.end, span.end};
+        for (int i = span.begin; i < inner.begin; ++i) upwind(shifted<Dim>(start, 0, i));
+        limited(start, inner.begin, inner.end);
+        for (int i = inner.end; i < span.end; ++i) upwind(shifted<Dim>(start, 0, i));
+      },
+      flux.rows_per_task());
+}
+
+template <int Dim>
+void SmokeTransport<Dim>::update(int axis, Field<Dim>& smoke, const Flow& flow) {
+  const auto next = static_cast<std::size_t>(flux_[axis].stride(axis));
+  parallel_for(
+      smoke.n_rows(),
+      [&](std::size_t r) {
+        const std::size_t first = flat<Dim>(smoke.row_start(r), grid_.faces(axis));
+        double *mass = smoke.row(r).data(), *volume = swept_volume_.row(r).data(), *density = density_.row(r).data();
+        const double* flux = flux_[axis].values().data() + first;
+        for_each_pack(spans_[r].begin, spans_[r].end, [&]<class T>(int i) {
+          const std::size_t face = first + static_cast<std::size_t>(i);
+          const T m = load<T>(mass + i) + (load<T>(flux + i) - load<T>(flux + i + next));
+          const T v = load<T>(volume + i) +
+                      (flow.template through<T>(axis, face) - flow.template through<T>(axis, face + next));
+          store<T>(mass + i, m);
+          store<T>(volume + i, v);
+          store<T>(density + i, v > 0 ? m / (v + tiny) : T{});
+        });
+      },
+      smoke.rows_per_task());
+}
+
+/// Mass through the open sides at the ends of the axis in this sweep [kg].
+template <int Dim>
+double SmokeTransport<Dim>::outflow(int axis) const {
+  double mass = 0;
+  Index<Dim> ends = flux_[axis].shape();
+  ends[axis] = 1;
+  for_each_index<Dim>(ends, [&](Index<Dim> i) {
+    for (int side = 0; side < 2; ++side) {
+      if (sides_[axis][side] == Side::closed) continue;
+      Index<Dim> cell = i;
+      cell[axis] = side == 0 ? 0 : grid_.cells[axis] - 1;
+      const Span span = spans_[row_of<Dim>(cell, grid_.cells)];
+      if (cell[0] < span.begin || cell[0] >= span.end) continue;
+      mass += side == 0 ? -flux_[axis][cell] : flux_[axis][shifted<Dim>(cell, axis, 1)];
+    }
+  });
+  return mass;
+}
+
+template <int Dim>
+double SmokeTransport<Dim>::deposit(Field<Dim>& smoke, const Ground<Dim>& ground, const Vec<Dim>& settling,
+                                    double dt) const {
+  const auto open_area = [&](int axis, const Index<Dim>& face) {
+    const bool closed = (face[axis] == 0 && sides_[axis][0] == Side::closed) ||
+                        (face[axis] == grid_.cells[axis] && sides_[axis][1] == Side::closed);
+    return closed ? 0.0 : grid_.face_area() * ground.open()[axis][face];
+  };
+  double deposited = 0;
+  for_each_index<Dim>(grid_.cells, [&](const Index<Dim>& i) {
+    if (smoke[i] <= 0 || ground.volume()[i] <= 0) return;
+    double rate = 0;
+    for (int axis = 0; axis < Dim; ++axis) {
+      const double area = open_area(axis, i) - open_area(axis, shifted<Dim>(i, axis, 1));
+      rate += std::max(settling[axis] * area, 0.0);
+    }
+    if (rate <= 0) return;
+    const double before = smoke[i];
+    smoke[i] = before / (1 + dt * rate / ground.volume()[i]);
+    deposited += before - smoke[i];
+  });
+  return deposited;
+}
+
+template <int Dim>
+std::size_t SmokeTransport<Dim>::bytes() const {
+  std::size_t n = volume_.bytes() + swept_volume_.bytes() + density_.bytes() + outflow_.bytes();
+  for (const auto& f : flux_) n += f.bytes();
+  return n + spindrift::bytes(spans_, before_) + small_cells_.bytes();
+}
+
+template class SmokeTransport<2>;
+template class SmokeTransport<3>;
+
+}  // namespace spindrift

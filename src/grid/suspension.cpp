@@ -1,0 +1,212 @@
+#include "grid/suspension.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "grid/face_mass.hpp"
+#include "grid/pack.hpp"
+
+namespace spindrift {
+
+template <int Dim>
+Suspension<Dim>::Suspension(const MacGrid<Dim>& grid, const Sides& sides, const SuspensionOptions<Dim>& options)
+    : grid_(grid),
+      sides_(sides),
+      options_(options),
+      velocity_(make_face_field<Dim>(grid)),
+      smoke_(grid.cells),
+      kind_(grid.cells, CellKind::open),
+      projection_(grid, sides),
+      ground_(grid, options.air_density),
+      active_(make_face_field<Dim, unsigned char>(grid)),
+      flow_area_(make_face_field<Dim>(grid)),
+      carrier_(velocity_),
+      advection_(grid),
+      smoke_transport_(grid, sides),
+      core_boundary_(sides),
+      density_(grid.cells) {
+  for (std::size_t axis = 0; axis < Dim; ++axis) carrier_speed_[axis].resize(velocity_[axis].n_rows());
+  update_active();
+}
+
+template <int Dim>
+void Suspension<Dim>::set_velocity(const FaceField<Dim>& u) {
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    SPINDRIFT_CHECK(u[axis].shape() == velocity_[axis].shape());
+    std::ranges::copy(u[axis].values(), velocity_[axis].values().begin());
+  }
+  start_from_velocity();
+}
+
+template <int Dim>
+void Suspension<Dim>::set_smoke_mass(const Field<Dim>& smoke) {
+  SPINDRIFT_CHECK(smoke.shape() == grid_.cells);
+  std::ranges::copy(smoke.values(), smoke_.values().begin());
+}
+
+template <int Dim>
+void Suspension<Dim>::set_kind(const Field<Dim, CellKind>& kind) {
+  SPINDRIFT_CHECK(kind.shape() == grid_.cells);
+  std::ranges::copy(kind.values(), kind_.values().begin());
+  kinds_are_old_ = true;
+  update_active();
+}
+
+template <int Dim>
+void Suspension<Dim>::set_pressure(const Field<Dim>& pressure) {
+  SPINDRIFT_CHECK(pressure.shape() == grid_.cells);
+  std::ranges::copy(pressure.values(), projection_.pressure().values().begin());
+}
+
+template <int Dim>
+void Suspension<Dim>::set_ground(const Field<Dim>& node_distance) {
+  set_ground(node_distance, 0, grid_.cells[0]);
+}
+
+template <int Dim>
+void Suspension<Dim>::set_ground(const Field<Dim>& node_distance, int begin, int end) {
+  ground_.set(node_distance, begin, end);
+  ground_.clear_deep(velocity_, begin, end);
+  ground_.clear_deep(carrier_, begin, end);
+  advection_.clear_deep(ground_, begin, end);
+  for (std::size_t cell = 0; cell < kind_.size(); ++cell) {
+    if (ground_.volume()[cell] <= 0) {
+      kind_[cell] = CellKind::solid;
+    } else if (kind_[cell] == CellKind::solid) {
+      kind_[cell] = CellKind::open;
+    }
+  }
+  kinds_are_old_ = true;
+  update_active();
+}
+
+template <int Dim>
+double Suspension<Dim>::face_mass(int axis, std::size_t face) const {
+  const double air = ground_.air_mass()[axis][face];
+  return air > 0 ? air + smoke_of_face<Dim>(smoke_, axis, unflat<Dim>(face, grid_.faces(axis))) : 0;
+}
+
+template <int Dim>
+double Suspension<Dim>::smoke_density(std::size_t cell) const {
+  const double volume = ground_.volume()[cell];
+  return volume > 0 ? smoke_[cell] / volume : 0;
+}
+
+template <int Dim>
+Vec<Dim> Suspension<Dim>::momentum() const {
+  Vec<Dim> sum;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const double* u = velocity_[axis].values().data();
+    sum[axis] = sum_over_faces<Dim>(axis, ground_, smoke_, [u]<class T>(std::size_t face, std::size_t, std::size_t) {
+      return load<T>(u + face);
+    });
+  }
+  return sum;
+}
+
+template <int Dim>
+double Suspension<Dim>::total_smoke() const {
+  return parallel_sum(smoke_.size(), 0.0, [&](std::size_t cell) { return smoke_[cell]; });
+}
+
+template <int Dim>
+double Suspension<Dim>::max_speed() const {
+  double speed = 0;
+  for (const auto& rows : carrier_speed_)
+    for (const double s : rows)
+      if (!(s <= speed)) speed = s;
+  return speed;
+}
+
+template <int Dim>
+void Suspension<Dim>::start_from_velocity() {
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    auto& u = velocity_[axis];
+    parallel_for(
+        u.n_rows(),
+        [&](std::size_t r) {
+          const double* row = u.row(r).data();
+          std::ranges::copy(u.row(r), carrier_[axis].row(r).begin());
+          carrier_speed_[axis][r] =
+              max_packs(0, u.shape()[0], [&]<class T>(int i) { return magnitude(load<T>(row + i)); });
+        },
+        u.rows_per_task());
+  }
+  disturbed_ = false;
+}
+
+template <int Dim>
+void Suspension<Dim>::set_density() {
+  parallel_for(
+      smoke_.n_rows(),
+      [&](std::size_t r) {
+        const double *mass = smoke_.row(r).data(), *volume = ground_.volume().row(r).data();
+        double* density = density_.row(r).data();
+        for_each_pack(0, grid_.cells[0], [&]<class T>(int i) {
+          const T v = load<T>(volume + i), m = load<T>(mass + i);
+          store<T>(density + i, options_.air_density + (v > 0 ? m / (v > 0 ? v : m) : T{}));
+        });
+      },
+      smoke_.rows_per_task());
+}
+
+template <int Dim>
+Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
+  Vec<Dim> change = Vec<Dim>::Zero();
+  if (options_.gravity.isZero() || std::ranges::none_of(smoke_.values(), [](double m) { return m != 0; })) return change;
+  disturbed_ = true;
+  set_density();
+  const double* density = density_.values().data();
+  for (int axis = 0; axis < Dim; ++axis) {
+    if (options_.gravity[axis] == 0) continue;
+    double* u = velocity_[axis].values().data();
+    const double* area = flow_area_[axis].values().data();
+    const double push = dt * options_.gravity[axis], air = options_.air_density;
+    change[axis] = sum_over_faces<Dim>(
+        axis, ground_, smoke_, [=]<class T>(std::size_t face, std::size_t low, std::size_t high) {
+          const T total = 0.5 * (load<T>(density + low) + load<T>(density + high));
+          const T du = load<T>(area + face) > 0 ? push * (total - air) / total : T{};
+          store<T>(u + face, load<T>(u + face) + du);
+          return du;
+        });
+  }
+  return change;
+}
+
+template <int Dim>
+Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sources) {
+  face_momentum_.clear();
+  for (int axis = 0; axis < Dim; ++axis)
+    for (const PointSource& source : sources.momentum[axis])
+      face_momentum_.push_back(face_mass(axis, source.point) * velocity_[axis][source.point]);
+  for (const PointSource& source : sources.smoke) smoke_[source.point] = std::max(0.0, smoke_[source.point] + source.amount);
+  Vec<Dim> change = Vec<Dim>::Zero();
+  std::size_t n = 0;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (const PointSource& source : sources.momentum[axis]) {
+      double& u = velocity_[axis][source.point];
+      const double mass = face_mass(axis, source.point), before = face_momentum_[n++];
+      if (active_[axis][source.point]) u = (before + source.amount) / mass;
+      change[axis] += mass * u - before;
+    }
+  }
+  disturbed_ = disturbed_ || n > 0;
+  return change;
+}
+
+template <int Dim>
+std::size_t Suspension<Dim>::bytes() const {
+  std::size_t n = smoke_.bytes() + kind_.bytes() + density_.bytes() + projection_.bytes() + ground_.bytes() +
+                  advection_.bytes() + smoke_transport_.bytes() + diffusion_.bytes() + confinement_.bytes() +
+                  core_boundary_.bytes() + components_.bytes() + spindrift::bytes(face_momentum_);
+  for (std::size_t axis = 0; axis < Dim; ++axis)
+    n += velocity_[axis].bytes() + carrier_[axis].bytes() + active_[axis].bytes() + flow_area_[axis].bytes() +
+         spindrift::bytes(carrier_speed_[axis]);
+  return n;
+}
+
+template class Suspension<2>;
+template class Suspension<3>;
+
+}  // namespace spindrift

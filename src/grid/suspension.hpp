@@ -1,0 +1,146 @@
+#pragma once
+/// The suspension layer: air and snow smoke on the MAC grid, paper Secs. 4.2 and 4.4.
+///
+/// One step is: add_gravity, apply (the exchange's sources), advance. Between steps the velocity is divergence-free.
+
+#include <optional>
+#include <span>
+
+#include "core/stages.hpp"
+#include "grid/advection.hpp"
+#include "grid/confinement.hpp"
+#include "grid/core_boundary.hpp"
+#include "grid/diffusion.hpp"
+#include "grid/grid_sources.hpp"
+#include "grid/ground.hpp"
+#include "grid/pressure_projection.hpp"
+#include "grid/smoke_transport.hpp"
+
+namespace spindrift {
+
+template <int Dim>
+struct SuspensionOptions {
+  Vec<Dim> gravity = -9.81 * up<Dim>();  ///< [m s^-2]
+  double air_density = 1.2;              ///< [kg m^-3]
+  AdvectionScheme scheme = AdvectionScheme::maccormack;  ///< of the velocity
+  double viscosity = 0;                  ///< kinematic, of the air [m^2 s^-1]
+  double diffusivity = 0;                ///< of the smoke [m^2 s^-1]
+  double settling_speed = 0;             ///< of the smoke relative to the air, along gravity [m s^-1] (R19)
+  std::optional<double> confinement;     ///< epsilon of vorticity confinement
+  ProjectionOptions pressure;
+  bool moving_core = true;               ///< R10; false: the paper's rule, normal velocity 0
+};
+
+/// What advance() did. The momentum entries [kg m s^-1] are changes of Suspension::momentum(); their sum is its change
+/// over the call.
+template <int Dim>
+struct SuspensionBudget {
+  Vec<Dim> core = Vec<Dim>::Zero();         ///< faces set to the core's velocity, smoke pushed out of the core
+  Vec<Dim> advection = Vec<Dim>::Zero();    ///< of the velocity
+  Vec<Dim> smoke = Vec<Dim>::Zero();        ///< smoke that moved to cells of another velocity, left or was deposited
+  Vec<Dim> diffusion = Vec<Dim>::Zero();
+  Vec<Dim> confinement = Vec<Dim>::Zero();
+  Vec<Dim> projection = Vec<Dim>::Zero();
+  Vec<Dim> core_pressure = Vec<Dim>::Zero();  ///< impulse of the pressure on the core; not a change of the grid's, but
+                                              ///< projection + core_pressure = impulse of sides and ground on the air
+  double outflow = 0;                       ///< smoke that left through open sides [kg]
+  double deposited = 0;                     ///< smoke that settled on the ground [kg]
+  int smoke_substeps = 0;
+  ProjectionResult pressure;
+};
+
+template <int Dim>
+class Suspension {
+ public:
+  using Sides = std::array<std::array<Side, 2>, Dim>;
+
+  Suspension(const MacGrid<Dim>& grid, const Sides& sides, const SuspensionOptions<Dim>& options);
+
+  const MacGrid<Dim>& grid() const { return grid_; }
+  const SuspensionOptions<Dim>& options() const { return options_; }
+
+  // State, for output and checkpoints. Everything else is derived or scratch.
+  const FaceField<Dim>& velocity() const { return velocity_; }         ///< u on faces [m/s]
+  const Field<Dim>& smoke_mass() const { return smoke_; }              ///< in each cell [kg], >= 0 (R7)
+  const Field<Dim, CellKind>& kind() const { return kind_; }           ///< of the last step
+  const Field<Dim>& pressure() const { return projection_.pressure(); }  ///< [Pa]
+
+  /// Initial conditions and restart, between steps. The velocity should be divergence-free; values on closed faces are
+  /// kept as they are, so a stored state comes back to the bit.
+  void set_velocity(const FaceField<Dim>& u);
+  void set_smoke_mass(const Field<Dim>& smoke);
+  void set_kind(const Field<Dim, CellKind>& kind);
+  void set_pressure(const Field<Dim>& pressure);
+
+  /// The bed's surface: signed distance at nodes [m], positive in the air.  Throws Error(bad_input): not finite.
+  /// begin, end: only cells of these columns (along the first axis) have changed; the result is the same to the bit.
+  void set_ground(const Field<Dim>& node_distance);
+  void set_ground(const Field<Dim>& node_distance, int begin, int end);
+  const Ground<Dim>& ground() const { return ground_; }
+
+  /// Faces that the exchange may use, 1 or 0: open, between two open cells or at an open side.
+  const FaceField<Dim, unsigned char>& active_faces() const { return active_; }
+
+  /// Air and smoke of a face's control volume [kg]: half of each neighbour cell's; 0 on closed faces.
+  double face_mass(int axis, std::size_t face) const;
+  /// rho_smoke of a cell [kg m^-3] over its open volume, floored as in Ground.
+  double smoke_density(std::size_t cell) const;
+  /// sum over faces of face_mass u [kg m s^-1].
+  Vec<Dim> momentum() const;
+  double total_smoke() const;  ///< [kg]
+  double max_speed() const;    ///< largest face velocity at the end of the last step [m/s]
+
+  /// One term (R8): du = dt r_s g on active faces, r_s = rho_smoke / (rho_air + rho_smoke), Eqs. (7)-(9).
+  /// Returns the change of momentum() [kg m s^-1].
+  Vec<Dim> add_gravity(double dt);
+
+  /// u' = (m_f u + J_f) / m_f' on listed active faces, smoke' = smoke + source. Listed faces that are not active take no
+  /// momentum. Returns the change of momentum() [kg m s^-1]: the sum of the J_f where all faces of a cell with a source
+  /// are active and listed.
+  Vec<Dim> apply(const GridSources<Dim>& sources);
+
+  /// The rest of the step, paper Sec. 4.2: kinds of cells, core boundary (R10), advection, smoke transport (R7),
+  /// diffusion and confinement where present, projection (R9). cores: in order of `cell`, no cell twice; their outputs
+  /// are set.
+  void advance(double dt, std::span<CoreCell<Dim>> cores, Stages& stages);
+
+  const SuspensionBudget<Dim>& budget() const { return budget_; }
+  std::size_t bytes() const;
+
+ private:
+  bool at_rest(std::span<const CoreCell<Dim>> cores) const;
+  void classify(std::span<CoreCell<Dim>> cores);
+  void update_active();
+  void move_smoke(double dt, Stages& stages);
+  void start_from_velocity();
+  void set_density();
+
+  MacGrid<Dim> grid_;
+  Sides sides_;
+  SuspensionOptions<Dim> options_;
+
+  FaceField<Dim> velocity_;
+  Field<Dim> smoke_;
+  Field<Dim, CellKind> kind_;
+  PressureProjection<Dim> projection_;
+
+  Ground<Dim> ground_;
+  FaceField<Dim, unsigned char> active_;
+  FaceField<Dim> flow_area_;      ///< open area of active faces [m^(Dim-1)], 0 of the others
+  FaceField<Dim> carrier_;        ///< divergence-free velocity of the step's start, which carries air and smoke
+  RowSpeeds<Dim> carrier_speed_;
+  bool disturbed_ = false;        ///< gravity or sources have changed the velocity since the last advance()
+  bool kinds_are_old_ = false;    ///< ground or kinds have been set since they were derived
+
+  VelocityAdvection<Dim> advection_;
+  SmokeTransport<Dim> smoke_transport_;
+  Diffusion<Dim> diffusion_;
+  Confinement<Dim> confinement_;
+  CoreBoundary<Dim> core_boundary_;
+  Components<Dim> components_;
+  Field<Dim> density_;            ///< air and smoke [kg m^-3], scratch of the projection
+  std::vector<double> face_momentum_;  ///< scratch of apply()
+  SuspensionBudget<Dim> budget_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,138 @@
+#include <algorithm>
+
+#include "core/parallel.hpp"
+#include "grid/suspension.hpp"
+
+namespace spindrift {
+
+template <int Dim>
+void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages& stages) {
+  budget_ = {};
+  if (at_rest(cores)) return move_smoke(dt, stages);
+
+  Vec<Dim> last = momentum();
+  const auto book = [&](Vec<Dim>& entry) {
+    const Vec<Dim> now = momentum();
+    entry += now - last;
+    last = now;
+  };
+
+  // 1. The dense core moves its faces (R10).
+  if (!cores.empty() || kinds_are_old_) {
+    const auto timed = stages.time("suspension.core");
+    classify(cores);
+    core_boundary_.push_out_smoke(smoke_, cores, velocity_, kind_, ground_);
+    core_boundary_.set_velocity(velocity_, cores, kind_, smoke_, ground_, options_.moving_core);
+    book(budget_.core);
+  }
+  // 2. Air and smoke are carried along.
+  {
+    const auto timed = stages.time("suspension.advection");
+    const AdvectionFrame<Dim> frame{grid_, ground_, carrier_, carrier_speed_, flow_area_};
+    advection_.advect(velocity_, frame, dt, options_.scheme);
+    book(budget_.advection);
+  }
+  move_smoke(dt, stages);
+  book(budget_.smoke);
+  // 3. Forces.
+  if (options_.viscosity > 0) {
+    const auto timed = stages.time("suspension.viscosity");
+    diffusion_.diffuse_velocity(velocity_, smoke_, flow_area_, grid_, ground_, options_.viscosity, dt);
+    book(budget_.diffusion);
+  }
+  if (options_.confinement) {
+    const auto timed = stages.time("suspension.confinement");
+    confinement_.apply(velocity_, flow_area_, grid_, *options_.confinement, dt);
+    book(budget_.confinement);
+  }
+  // 4. Incompressibility.
+  {
+    const auto timed = stages.time("suspension.pressure");
+    set_density();
+    budget_.pressure = projection_.project(velocity_, density_, ground_.open(), kind_, dt, options_.pressure);
+    budget_.core_pressure = core_boundary_.add_pressure(cores, projection_.pressure(), kind_, ground_.open(),
+                                                        grid_.face_area(), dt);
+    book(budget_.projection);
+  }
+  const auto timed = stages.time("suspension.extrapolation");
+  ground_.extrapolate(velocity_);
+  start_from_velocity();
+}
+
+/// No air moves and none will.
+template <int Dim>
+bool Suspension<Dim>::at_rest(std::span<const CoreCell<Dim>> cores) const {
+  return cores.empty() && !kinds_are_old_ && !disturbed_ && max_speed() == 0;
+}
+
+/// Sets the kind of every cell, and what follows from it.
+template <int Dim>
+void Suspension<Dim>::classify(std::span<CoreCell<Dim>> cores) {
+  for (std::size_t cell = 0; cell < kind_.size(); ++cell)
+    kind_[cell] = ground_.volume()[cell] > 0 ? CellKind::open : CellKind::solid;
+  for (const CoreCell<Dim>& core : cores)
+    if (kind_[core.cell] == CellKind::open) kind_[core.cell] = CellKind::core;
+  if (!cores.empty()) mark_pockets<Dim>(kind_, ground_.open(), sides_, components_);
+  kinds_are_old_ = !cores.empty();
+  update_active();
+}
+
+template <int Dim>
+void Suspension<Dim>::update_active() {
+  for (int axis = 0; axis < Dim; ++axis) {
+    auto& active = active_[axis];
+    const int n = grid_.cells[axis];
+    const auto below = static_cast<std::size_t>(kind_.stride(axis));
+    const double area = grid_.face_area();
+    parallel_for(
+        active.n_rows(),
+        [&](std::size_t r) {
+          const Index<Dim> start = active.row_start(r);
+          const double* open = ground_.open()[axis].row(r).data();
+          unsigned char* flag = active.row(r).data();
+          double* flow = flow_area_[axis].row(r).data();
+          const auto length = static_cast<std::size_t>(active.shape()[0]);
+          const std::size_t cell = flat<Dim>(start, grid_.cells);
+          for (std::size_t i = 0; i < length; ++i) {
+            const int along = axis == 0 ? static_cast<int>(i) : start[axis];
+            bool on = open[i] > 0;
+            if (along == 0) {
+              on = on && sides_[axis][0] == Side::open;
+            } else {
+              on = on && kind_[cell + i - below] == CellKind::open;
+            }
+            if (along == n) {
+              on = on && sides_[axis][1] == Side::open;
+            } else {
+              on = on && kind_[cell + i] == CellKind::open;
+            }
+            flag[i] = on ? 1 : 0;
+            flow[i] = on ? area * open[i] : 0;
+          }
+        },
+        active.rows_per_task());
+  }
+}
+
+template <int Dim>
+void Suspension<Dim>::move_smoke(double dt, Stages& stages) {
+  Vec<Dim> settling = Vec<Dim>::Zero();
+  if (options_.settling_speed > 0 && !options_.gravity.isZero())
+    settling = options_.settling_speed * options_.gravity.normalized();
+  if (max_speed() > 0 || !settling.isZero()) {
+    const auto timed = stages.time("suspension.smoke");
+    const SmokeFlow moved = smoke_transport_.advance(smoke_, carrier_, flow_area_, ground_, settling, dt);
+    budget_.outflow = moved.outflow;
+    budget_.deposited = moved.deposited;
+    budget_.smoke_substeps = moved.substeps;
+  }
+  if (options_.diffusivity > 0) {
+    const auto timed = stages.time("suspension.diffusion");
+    diffusion_.diffuse_smoke(smoke_, flow_area_, grid_, ground_, options_.diffusivity, dt);
+  }
+}
+
+template class Suspension<2>;
+template class Suspension<3>;
+
+}  // namespace spindrift

@@ -1,0 +1,97 @@
+#include "simulation/instruments.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spindrift {
+namespace {
+
+constexpr double head_length = 20;  // [m], PHYSICS.md sec. 3
+
+struct MassAt {
+  double along, mass;
+};
+
+template <int Dim>
+double along_ground(const Simulation<Dim>& simulation, const Vec<Dim>& x) {
+  return simulation.walls().terrain ? simulation.walls().terrain->foot(x).place[0] : x[0];
+}
+
+/// Snow of the dense flow by its place along the ground, ascending.
+template <int Dim>
+std::vector<MassAt> masses_along(const Simulation<Dim>& simulation) {
+  const Particles<Dim>& p = simulation.dense()->particles;
+  std::vector<MassAt> masses(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) masses[i] = {along_ground(simulation, p.position[i]), p.mass[i]};
+  std::sort(masses.begin(), masses.end(), [](const MassAt& a, const MassAt& b) { return a.along < b.along; });
+  return masses;
+}
+
+double percentile(const std::vector<MassAt>& masses, double share) {
+  double total = 0, sum = 0;
+  for (const MassAt& m : masses) total += m.mass;
+  for (const MassAt& m : masses)
+    if ((sum += m.mass) >= share * total) return m.along;
+  return masses.empty() ? 0 : masses.back().along;
+}
+
+/// Calls f(centre) for the highest cell of the cloud in each column of the grid.
+template <int Dim, class F>
+void for_each_cloud_top(const Suspension<Dim>& suspension, F&& f) {
+  Index<Dim> columns = suspension.grid().cells;
+  columns[up_axis<Dim>] = 1;
+  for_each_index<Dim>(columns, [&](Index<Dim> i) {
+    for (int k = suspension.grid().cells[up_axis<Dim>] - 1; k >= 0; --k) {
+      i[up_axis<Dim>] = k;
+      const std::size_t cell = flat<Dim>(i, suspension.grid().cells);
+      if (suspension.smoke_mass()[cell] == 0 || suspension.smoke_density(cell) < cloud_density) continue;
+      f(suspension.grid().cell_centre(i));
+      return;
+    }
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
+  if (simulation.time() < next_) return;
+  next_ = (std::floor(simulation.time() / sample_interval) + 1) * sample_interval;
+  const auto& terrain = simulation.walls().terrain;
+
+  if (simulation.dense() && !simulation.dense()->particles.empty()) {
+    const std::vector<MassAt> masses = masses_along(simulation);
+    front = percentile(masses, 0.99);
+    samples_.push_back({simulation.time(), front});
+    while (samples_.size() > 2 && simulation.time() - samples_[1].time >= speed_window) samples_.pop_front();
+    const double elapsed = simulation.time() - samples_.front().time;
+    if (elapsed >= 0.99 * speed_window) {
+      front_speed = (front - samples_.front().front) / elapsed;
+      front_speed_max = std::max(front_speed_max, front_speed);
+    }
+    double head_mass = 0;
+    for (const MassAt& m : masses)
+      if (m.along > front - head_length && m.along <= front) head_mass += m.mass;
+    const double width = Dim == 3 ? simulation.walls().domain.size()[1] : 1;
+    head_depth = head_mass / simulation.dense()->options().density / (head_length * width);
+  }
+
+  if (simulation.suspension()) {
+    cloud_height = head_cloud = 0;
+    for_each_cloud_top<Dim>(*simulation.suspension(), [&](const Vec<Dim>& x) {
+      if (!terrain) {
+        cloud_height = std::max(cloud_height, x[up_axis<Dim>] - simulation.walls().domain.lower[up_axis<Dim>]);
+        return;
+      }
+      const Foot<Dim> foot = terrain->foot(x);
+      cloud_height = std::max(cloud_height, foot.distance);
+      if (std::abs(foot.place[0] - front) < head_length) head_cloud = std::max(head_cloud, foot.distance);
+    });
+    cloud_height_max = std::max(cloud_height_max, cloud_height);
+  }
+}
+
+template struct Instruments<2>;
+template struct Instruments<3>;
+
+}  // namespace spindrift

@@ -1,0 +1,38 @@
+#pragma once
+/// What people read off an avalanche: where its front is and how fast, how high its cloud stands. Sampled at fixed
+/// simulated times, so that the numbers do not depend on the output.
+
+#include <deque>
+
+#include "simulation/simulation.hpp"
+
+namespace spindrift {
+
+/// A cloud is where smoke is denser than this [kg m^-3].
+inline constexpr double cloud_density = 0.1;
+
+template <int Dim>
+struct Instruments {
+  static constexpr double sample_interval = 0.1;  ///< [s]
+  static constexpr double speed_window = 0.5;     ///< over which the front's speed is taken [s]
+
+  double front = 0;             ///< 99th mass percentile of the dense flow along the ground (without ground: x) [m]
+  double front_speed = 0;       ///< over the last window [m s^-1]
+  double front_speed_max = 0;   ///< [m s^-1]
+  double cloud_height = 0;      ///< largest distance of the cloud from the ground [m]
+  double cloud_height_max = 0;  ///< [m]
+  double head_depth = 0;        ///< mean depth of the dense flow within 20 m of the front [m]
+  double head_cloud = 0;        ///< largest cloud height within 20 m of the front [m]
+
+  /// Reads the simulation where the next sample is due.
+  void follow(const Simulation<Dim>& simulation);
+
+ private:
+  struct Sample {
+    double time, front;
+  };
+  std::deque<Sample> samples_;
+  double next_ = 0;
+};
+
+}  // namespace spindrift

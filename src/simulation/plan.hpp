@@ -1,0 +1,34 @@
+#pragma once
+/// What a run will need, told from its scene alone before anything is built.
+
+#include <filesystem>
+#include <vector>
+
+#include "simulation/scene.hpp"
+
+namespace spindrift {
+
+/// Counts are doubles, so that the absurd stays a number.
+struct Plan {
+  double n_release = 0;      ///< dense particles at the start
+  double n_cover = 0;        ///< cover particles
+  std::vector<double> grid;  ///< cells along each axis; empty without a suspension
+  double n_cells = 0;
+  double n_frames = 0;
+  double memory = 0;  ///< peak [B], within about a factor of two
+  double disk = 0;    ///< run folder [B], within about a factor of two
+};
+
+Plan plan_scene(const Scene& scene);
+
+/// Memory that this process may still use [B]: the machine's, or its control group's if that is less.
+double memory_available();
+
+/// Space left where `folder` is or will be [B].
+double disk_available(const std::filesystem::path& folder);
+
+/// Throws Error(would_not_fit): more cells or particles than can be counted, more memory than four fifths of what is
+/// available, more disk than there is.
+void require_fit(const Scene& scene, const Plan& plan, const std::filesystem::path& folder);
+
+}  // namespace spindrift

@@ -1,0 +1,198 @@
+#include "simulation/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/parallel.hpp"
+#include "io/commit.hpp"
+#include "io/system.hpp"
+#include "simulation/diagnostics.hpp"
+#include "simulation/frame.hpp"
+#include "simulation/preview.hpp"
+#include "simulation/scene_writer.hpp"
+
+namespace spindrift {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The run folder with its parts, cleared of an earlier run's results. Nothing else in it is touched.
+void make_folder(const RunOptions& options, const OutputSection& output) {
+  const auto try_io = [&](auto&& f) {
+    try {
+      f();
+    } catch (const fs::filesystem_error& failure) {
+      throw Error(ExitCode::io_failed, fmt::format("cannot prepare {}: {}", failure.path1().string(),
+                                                   failure.code().message()));
+    }
+  };
+  try_io([&] {
+    fs::create_directories(options.folder);
+    for (const char* part : {"frames", "preview"}) fs::remove_all(options.folder / part);
+    for (const char* part : {"run.json", "particles.hdf.series", "smoke.hdf.series", "preview.mp4"})
+      fs::remove(options.folder / part);
+    if (output.particles || output.smoke) fs::create_directories(options.folder / "frames");
+    if (output.preview) fs::create_directories(options.folder / "preview");
+  });
+  remove_stale_temporaries(options.folder);
+}
+
+template <int Dim>
+std::size_t open_cells(const Suspension<Dim>& suspension) {
+  const auto volume = suspension.ground().volume().values();
+  return volume.size() - static_cast<std::size_t>(std::count(volume.begin(), volume.end(), 0.0));
+}
+
+}  // namespace
+
+template <int Dim>
+Recorder<Dim>::Recorder(const Scene& scene, const RunOptions& options)
+    : options_(options),
+      output_(scene.output),
+      start_(std::chrono::steady_clock::now()) {
+  make_folder(options, scene.output);
+  commit(options_.folder / "scene.toml", write_scene(scene));
+}
+
+template <int Dim>
+double Recorder<Dim>::wall_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+template <int Dim>
+void Recorder<Dim>::follow(const Simulation<Dim>& simulation) {
+  instruments_.follow(simulation);
+  write_diagnostics(simulation);
+  if (simulation.n_steps() > 0) {
+    ++limiters_[std::string(simulation.report().limiter)];
+    dt_min_ = simulation.n_steps() == 1 ? simulation.report().dt : std::min(dt_min_, simulation.report().dt);
+  }
+  if (output_.frames_per_second <= 0) return;
+  const double frames_due = simulation.time() * output_.frames_per_second;
+  if (frames_due < static_cast<double>(next_frame_)) return;
+  write_frame(simulation);
+  next_frame_ = static_cast<std::uint64_t>(std::floor(frames_due)) + 1;
+}
+
+template <int Dim>
+void Recorder<Dim>::write_diagnostics(const Simulation<Dim>& simulation) {
+  const std::vector<Diagnostic> row = diagnostics(simulation, instruments_);
+  if (!diagnostics_) {
+    std::vector<std::string> columns;
+    for (const Diagnostic& d : row) columns.push_back(heading<Dim>(d));
+    columns.push_back("limiter");
+    diagnostics_.emplace(options_.folder / "diagnostics.csv", columns);
+  }
+  if (simulation.n_steps() == 0) return;
+  numbers_.clear();
+  for (const Diagnostic& d : row) numbers_.push_back(d.value);
+  diagnostics_->row(numbers_, simulation.report().limiter);
+}
+
+template <int Dim>
+void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
+  const std::string number = fmt::format("{:06}", n_frames_++);
+  const fs::path folder = options_.folder;
+  if (output_.particles && simulation.dense()) {
+    const std::string name = "frames/particles_" + number + ".hdf";
+    particle_series_.push_back({name, simulation.time()});
+    writer_.submit([path = folder / name, index = folder / "particles.hdf.series", series = particle_series_,
+                    frame = particle_frame(simulation)] {
+      commit(path, frame.file());
+      commit_series(index, series);
+    });
+  }
+  if (output_.smoke && simulation.suspension()) {
+    const std::string name = "frames/smoke_" + number + ".hdf";
+    smoke_series_.push_back({name, simulation.time()});
+    writer_.submit([path = folder / name, index = folder / "smoke.hdf.series", series = smoke_series_,
+                    frame = smoke_frame(simulation)] {
+      commit(path, frame.file());
+      commit_series(index, series);
+    });
+  }
+  if constexpr (Dim == 2) {
+    if (output_.preview)
+      writer_.submit([path = folder / "preview" / (number + ".png"), frame = preview_frame(simulation)] {
+        commit(path, frame.png());
+      });
+  }
+  diagnostics_->flush();
+  write_summary(simulation, "running", {});
+}
+
+template <int Dim>
+void Recorder<Dim>::finish(const Simulation<Dim>& simulation, const std::string& status, const std::string& message) {
+  writer_.finish();
+  if (diagnostics_) diagnostics_->close();
+  write_summary(simulation, status, message);
+}
+
+template <int Dim>
+void Recorder<Dim>::write_summary(const Simulation<Dim>& s, const std::string& status, const std::string& message) {
+  using nlohmann::ordered_json;
+  const MassLedger& m = s.masses();
+  ordered_json run;
+  run["status"] = status;
+  if (!message.empty()) run["message"] = message;
+  run["scene"] = s.scene().scene.name;
+  run["scene_file"] = options_.scene_file;
+  run["dim"] = Dim;
+  run["seed"] = s.scene().scene.seed;
+  run["version"] = SPINDRIFT_VERSION;
+  run["time"] = s.time();
+  run["steps"] = s.n_steps();
+  run["n_dense_initial"] = s.n_dense_initial();
+  run["n_dense"] = s.dense() ? s.dense()->particles.size() : 0;
+  run["n_entrained"] = m.n_entrained;
+  run["n_cover"] = s.cover() ? s.cover()->particles.size() - s.cover()->n_dead : 0;
+  run["n_vanished"] = m.n_vanished;
+  run["n_outflow"] = m.n_outflow;
+  run["grid_cells"] = s.suspension() ? s.suspension()->smoke_mass().size() : 0;
+  run["active_cells"] = s.suspension() ? open_cells(*s.suspension()) : 0;
+  run["mass"] = {{"initial", m.initial},
+                 {"dense", s.dense_mass()},
+                 {"cover", s.cover_mass()},
+                 {"smoke", s.smoke_mass()},
+                 {"deposited", m.deposited},
+                 {"outflow", m.outflow()},
+                 {"error_relative", s.mass_error()}};
+  run["mass_entrained"] = m.entrained;
+  run["smoke_generated"] = m.generated;
+  run["smoke_adhered"] = m.adhered;
+  run["front_x"] = instruments_.front;
+  run["front_speed"] = instruments_.front_speed;
+  run["front_speed_max"] = instruments_.front_speed_max;
+  run["cloud_height"] = instruments_.cloud_height;
+  run["cloud_height_max"] = instruments_.cloud_height_max;
+  run["head_depth"] = instruments_.head_depth;
+  run["head_cloud_height"] = instruments_.head_cloud;
+  run["dt_min"] = dt_min_;
+  run["dt_mean"] = s.n_steps() > 0 ? s.time() / static_cast<double>(s.n_steps()) : 0;
+  run["dt_limiters"] = limiters_;
+  run["wall_seconds"] = wall_seconds();
+  double step_seconds = 0;
+  ordered_json stages = ordered_json::object();
+  for (const Stages::Stage& stage : s.stages().all()) {
+    stages[stage.name] = stage.seconds;
+    if (stage.name == "step") step_seconds = stage.seconds;
+  }
+  run["ms_per_step"] = s.n_steps() > 0 ? 1000 * step_seconds / static_cast<double>(s.n_steps()) : 0;
+  run["stages"] = stages;
+  ordered_json memory = ordered_json::object();
+  for (const auto& [part, bytes] : s.memory()) memory[part] = bytes;
+  run["memory"] = memory;
+  run["threads"] = n_threads();
+  run["peak_memory_bytes"] = peak_memory_bytes();
+  run["frames"] = n_frames_;
+  if (status != "running") run["digest"] = state_digest(s);
+  commit(options_.folder / "run.json", run.dump(2) + "\n");
+}
+
+template class Recorder<2>;
+template class Recorder<3>;
+
+}  // namespace spindrift

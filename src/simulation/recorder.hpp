@@ -1,0 +1,55 @@
+#pragma once
+/// The run folder: what a simulation leaves on disk (DESIGN.md sec. 4). Writing goes on beside the simulation; a frame
+/// stands on disk whole or not at all.
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "io/background_writer.hpp"
+#include "io/csv.hpp"
+#include "io/series.hpp"
+#include "simulation/instruments.hpp"
+#include "simulation/run.hpp"
+
+namespace spindrift {
+
+template <int Dim>
+class Recorder {
+ public:
+  /// Makes the folder, removes what an earlier run left in it, and writes scene.toml.
+  /// Throws Error(io_failed), also from all calls below.
+  Recorder(const Scene& scene, const RunOptions& options);
+
+  /// Follows the simulation after its construction and after every step: a row of diagnostics, and a frame at the first
+  /// step at or after each frame time. Steps are never cut to hit a frame time.
+  void follow(const Simulation<Dim>& simulation);
+
+  /// Writes the last frame where it is due, and run.json.
+  /// status   "done" | "stopped" | "unstable"
+  void finish(const Simulation<Dim>& simulation, const std::string& status, const std::string& message = {});
+
+  const Instruments<Dim>& instruments() const { return instruments_; }
+  double wall_seconds() const;
+
+ private:
+  void write_frame(const Simulation<Dim>& simulation);
+  void write_diagnostics(const Simulation<Dim>& simulation);
+  void write_summary(const Simulation<Dim>& simulation, const std::string& status, const std::string& message);
+
+  RunOptions options_;
+  OutputSection output_;
+  std::chrono::steady_clock::time_point start_;
+  Instruments<Dim> instruments_;
+  std::uint64_t next_frame_ = 0, n_frames_ = 0;
+  std::vector<SeriesEntry> particle_series_, smoke_series_;
+  std::map<std::string, std::uint64_t> limiters_;
+  double dt_min_ = 0;
+  std::optional<CsvWriter> diagnostics_;
+  std::vector<double> numbers_;
+  BackgroundWriter writer_;
+};
+
+}  // namespace spindrift

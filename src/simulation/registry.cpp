@@ -1,0 +1,287 @@
+#include "simulation/registry.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+namespace spindrift {
+namespace {
+
+template <class T> constexpr bool is_optional = false;
+template <class T> constexpr bool is_optional<std::optional<T>> = true;
+
+/// The member at the end of a path of member pointers, through the sections on the way.
+template <auto First, auto... Rest, class S> auto& member(S& owner) {
+  auto& next = owner.*First;
+  if constexpr (sizeof...(Rest) == 0) {
+    return next;
+  } else if constexpr (is_optional<std::remove_cvref_t<decltype(next)>>) {
+    return member<Rest...>(*next);
+  } else {
+    return member<Rest...>(next);
+  }
+}
+
+template <auto First, auto... Rest, class S> bool exists(const S& owner) {
+  if constexpr (is_optional<std::remove_cvref_t<decltype(owner.*First)>>) {
+    if (!(owner.*First)) return false;
+    if constexpr (sizeof...(Rest) > 0) return exists<Rest...>(*(owner.*First));
+  }
+  return true;
+}
+
+template <auto First, auto... Rest, class S> void create(S& owner) {
+  if constexpr (is_optional<std::remove_cvref_t<decltype(owner.*First)>>) {
+    if (!(owner.*First)) (owner.*First).emplace();
+    if constexpr (sizeof...(Rest) > 0) create<Rest...>(*(owner.*First));
+  }
+}
+
+struct Registry {
+  std::vector<Section> sections;
+  std::vector<Key> keys;
+};
+
+/// Adds one section, and its keys one by one; Path leads from the Scene to the section.
+template <auto... Path> class Rows {
+ public:
+  Rows(Registry& registry, std::string_view path, std::string_view doc) : registry_(registry), path_(path) {
+    registry.sections.push_back({path, doc, [](const Scene& scene) { return exists<Path...>(scene); },
+                                 [](Scene& scene) { create<Path...>(scene); }});
+  }
+
+  template <auto Member>
+  Rows& number(std::string_view name, std::string_view unit, Range range, std::string_view doc,
+               std::string_view source = "") {
+    return add<Member>(name, unit, range, {}, doc, source);
+  }
+  template <auto Member>
+  Rows& words(std::string_view name, std::vector<std::string_view> allowed, std::string_view doc,
+              std::string_view source = "") {
+    return add<Member>(name, "", {}, std::move(allowed), doc, source);
+  }
+  template <auto Member> Rows& plain(std::string_view name, std::string_view doc, std::string_view source = "") {
+    return add<Member>(name, "", {}, {}, doc, source);
+  }
+
+ private:
+  template <auto Member>
+  Rows& add(std::string_view name, std::string_view unit, Range range, std::vector<std::string_view> allowed,
+            std::string_view doc, std::string_view source) {
+    const auto field = [](Scene& scene) -> Slot { return &member<Path..., Member>(scene); };
+    registry_.keys.push_back(
+        {std::string(path_) + "." + std::string(name), unit, range, std::move(allowed), doc, source, field});
+    return *this;
+  }
+
+  Registry& registry_;
+  std::string_view path_;
+};
+
+constexpr Range from(double low, double high) {
+  return {low, high, false, false};
+}
+constexpr Range above(double low, double high) {
+  return {low, high, true, false};
+}
+constexpr Range below(double low, double high) {
+  return {low, high, false, true};
+}
+constexpr Range between(double low, double high) {
+  return {low, high, true, true};
+}
+
+constexpr double right_angle = std::numbers::pi / 2;
+constexpr Range position = from(-1e6, 1e6), extent = above(0, 1e5), speed = from(-1000, 1000),
+                iterations = from(1, 1e6);
+
+void add_setting(Registry& r) {
+  using S = SceneSection;
+  Rows<&Scene::scene>(r, "scene", "what the run is called and how long it lasts")
+      .plain<&S::name>("name", "of the run folder and the pictures; default: the file's name")
+      .number<&S::dim>("dim", "", from(2, 3), "2: a slice one metre wide, x and z; 3: x, y and z")
+      .number<&S::seed>("seed", "", from(0, 9223372036854775807.0), "of all random numbers")
+      .words<&S::preset>("preset", {"physical", "paper"},
+                         "which defaults hold: measured snow, or the paper's constants")
+      .number<&S::end_time>("end_time", "s", above(0, 1e6), "simulated time at which the run ends");
+
+  using D = DomainSection;
+  const std::vector<std::string_view> side = {"open", "closed"};
+  Rows<&Scene::domain>(r, "domain", "the box in which everything happens; the last axis points up")
+      .number<&D::lower>("lower", "m", position, "lower corner")
+      .number<&D::upper>("upper", "m", position, "upper corner")
+      .number<&D::gravity>("gravity", "m/s^2", speed, "default: 9.81 downwards; tilt it to lay a box along a slope")
+      .words<&D::left>("left", side, "side of least x: snow and air leave, or meet a wall")
+      .words<&D::right>("right", side, "side of greatest x")
+      .words<&D::bottom>("bottom", side, "side of least z")
+      .words<&D::top>("top", side, "side of greatest z")
+      .words<&D::front>("front", side, "side of least y (3D)")
+      .words<&D::back>("back", side, "side of greatest y (3D)");
+
+  using T = TerrainSection;
+  Rows<&Scene::terrain>(r, "terrain", "the ground")
+      .words<&T::shape>("shape", {"slope", "bumps", "cliff", "polyline"}, "kind of ground", "Figs. 9, 12")
+      .number<&T::start>("start", "m", position, "upper left end of the slope (x, z)")
+      .number<&T::angle>("angle", "rad", between(0, right_angle), "of the slope, downhill to the right")
+      .number<&T::drop>("drop", "m", extent, "height of the whole slope from start to its foot")
+      .number<&T::runout_angle>("runout_angle", "rad", between(-right_angle, right_angle),
+                                "of the ground beyond the foot")
+      .number<&T::transition_radius>("transition_radius", "m", from(0, 1e5), "of the arc between slope and run-out")
+      .number<&T::bump_height>("bump_height", "m", from(0, 1000), "crest to trough (bumps)")
+      .number<&T::bump_length>("bump_length", "m", extent, "wavelength along the slope (bumps)")
+      .number<&T::cliff_at>("cliff_at", "m", extent, "drop from start at which the cliff begins (cliff)")
+      .number<&T::cliff_height>("cliff_height", "m", extent, "height of the cliff (cliff)")
+      .number<&T::points>("points", "m", position, "vertices (x, z) from left to right (polyline)");
+}
+
+void add_snow(Registry& r) {
+  using R = ReleaseSection;
+  Rows<&Scene::release>(r, "release", "snow let go at the start")
+      .words<&R::shape>("shape", {"slab", "box"}, "slab: lies on the ground or the cover; box: an axis-aligned box")
+      .number<&R::at>("at", "m", from(0, 1e6), "way along the ground to the slab's upper end (slab)")
+      .number<&R::length>("length", "m", extent, "of the slab along the ground (slab)")
+      .number<&R::thickness>("thickness", "m", above(0, 1000), "of the slab, normal to the ground (slab)")
+      .number<&R::lower>("lower", "m", position, "lower corner (box)")
+      .number<&R::upper>("upper", "m", position, "upper corner (box)")
+      .number<&R::velocity>("velocity", "m/s", speed, "initial velocity; default 0");
+
+  using F = DenseFlowSection;
+  Rows<&Scene::dense_flow>(r, "dense_flow", "the flowing snow, as particles")
+      .words<&F::solver>("solver", {"dfsph", "wcsph"}, "pressure: implicit on volume, or an equation of state", "R11")
+      .number<&F::support_radius>("support_radius", "m", above(0, 100), "h; the particle spacing is h / 2", "Sec. 5")
+      .number<&F::density>("density", "kg/m^3", above(0, 1e5), "of the flowing snow", "R20")
+      .number<&F::viscosity>("viscosity", "Pa s", from(0, 1e6), "mu, of the flowing snow", "Eq. (2)")
+      .words<&F::wall>("wall", {"slip", "no_slip"},
+                       "viscous stress at walls: none, or as at a wall that holds the snow")
+      .number<&F::density_tolerance>("density_tolerance", "", between(0, 1), "mean compression allowed (dfsph)")
+      .number<&F::divergence_tolerance>("divergence_tolerance", "", above(0, 1000),
+                                        "mean rate of compression allowed (dfsph)")
+      .number<&F::max_iterations>("max_iterations", "", iterations, "of each pressure solve (dfsph)")
+      .number<&F::cfl>("cfl", "", above(0, 1), "largest way of a particle in a step, in spacings")
+      .number<&F::sound_speed>("sound_speed", "m/s", from(0, 1e5),
+                               "of the equation of state (wcsph); 0: ten times the largest speed expected")
+      .number<&F::friction_mu>("friction_mu", "", from(0, 10), "Coulomb coefficient at ground and cover", "R18")
+      .number<&F::friction_xi>("friction_xi", "m/s^2", from(0, 1e9), "Voellmy coefficient; 0: no turbulent part", "R18")
+      .words<&F::friction_acts_on>("friction_acts_on", {"column", "base", "none"}, "which particles feel it", "R18")
+      .number<&F::compaction_time>("compaction_time", "s", from(0, 1e6),
+                                   "in which entrained snow takes on the flow's density; 0: off", "R20");
+
+  using C = CoverSection;
+  Rows<&Scene::cover>(r, "cover", "the resting snow cover, as particles")
+      .number<&C::depth>("depth", "m", above(0, 1000), "normal to the ground")
+      .number<&C::density>("density", "kg/m^3", above(0, 1e5), "rho_a", "Eq. (15)")
+      .number<&C::from>("from", "m", from(0, 1e6), "way along the ground at which it begins")
+      .number<&C::to>("to", "m", from(-1, 1e6), "way along the ground at which it ends; negative: the ground's end")
+      .number<&C::relaxation_steps>("relaxation_steps", "", from(0, 1e5), "of the sampling", "Sec. 4.5");
+}
+
+void add_smoke(Registry& r) {
+  using U = SuspensionSection;
+  Rows<&Scene::suspension>(r, "suspension", "the air and its snow smoke, on a grid")
+      .number<&U::cell_size>("cell_size", "m", above(0, 1e4), "dx", "Sec. 5")
+      .number<&U::air_density>("air_density", "kg/m^3", above(0, 1e4), "rho_air", "Eq. (7)")
+      .words<&U::scheme>("scheme", {"maccormack", "semi_lagrangian"}, "of the air's advection", "Eq. (2)")
+      .number<&U::viscosity>("viscosity", "m^2/s", from(0, 1e6), "kinematic, of the air", "Eq. (2)")
+      .number<&U::diffusivity>("diffusivity", "m^2/s", from(0, 1e6), "of the smoke", "R19")
+      .number<&U::settling_speed>("settling_speed", "m/s", from(0, 1000), "of the smoke; 0: off", "R19")
+      .number<&U::cfl>("cfl", "", above(0, 100), "largest way of the air in a step, in cells")
+      .number<&U::tolerance>("tolerance", "", between(0, 1), "relative residual of the pressure solve")
+      .number<&U::max_iterations>("max_iterations", "", iterations, "of the pressure solve")
+      .plain<&U::moving_core>("moving_core", "the dense core pushes the air aside; false: the paper's rule", "R10");
+  Rows<&Scene::suspension, &U::confinement>(r, "suspension.confinement", "vorticity confinement: keeps swirls alive")
+      .number<&ConfinementSection::strength>("strength", "", from(0, 100), "epsilon", "Eq. (8)");
+
+  using X = CouplingSection;
+  Rows<&Scene::coupling>(r, "coupling", "what dense flow and smoke exchange where they overlap")
+      .number<&X::overlap_fraction>("overlap_fraction", "", from(0, 10), "beta: overlap is where n < beta n_interior",
+                                    "R1")
+      .number<&X::min_mass>("min_mass", "", below(0, 1), "of a particle, in initial masses", "R17")
+      .number<&X::max_mass>("max_mass", "", from(1, 1e6), "of a particle, in initial masses", "R17");
+  const std::vector<std::string_view> laws = {"air", "paper"};
+  Rows<&Scene::coupling, &X::drag>(r, "coupling.drag", "air drag on particles, and back on the air")
+      .number<&DragSection::constant>("constant", "", from(0, 1e6), "k_drag", "Eq. (10)")
+      .words<&DragSection::law>("law", laws, "scaled by the displaced air's mass, or by the particle's", "R2");
+  Rows<&Scene::coupling, &X::lift>(r, "coupling.lift", "lift by the air's swirls, and back on the air")
+      .number<&LiftSection::constant>("constant", "", from(0, 1e6), "k_lift", "Eq. (11)")
+      .words<&LiftSection::law>("law", laws, "scaled by the displaced air's mass, or by the particle's", "R3");
+  Rows<&Scene::coupling, &X::generation>(r, "coupling.generation", "smoke torn off the particles")
+      .number<&GenerationSection::constant>("constant", "kg m^-2 s^-1 (m/s)^-1.7", from(0, 1e3), "C_g", "Eq. (12), R5")
+      .number<&GenerationSection::threshold_speed>("threshold_speed", "m/s", from(0, 1000), "below it, none", "R5");
+  Rows<&Scene::coupling, &X::adhesion>(r, "coupling.adhesion", "smoke swept up by the particles")
+      .number<&AdhesionSection::constant>("constant", "", from(0, 1e3), "C_a", "Eq. (13)");
+}
+
+void add_rest(Registry& r) {
+  using E = EntrainmentSection;
+  Rows<&Scene::entrainment>(r, "entrainment", "cover that the flow sweeps along")
+      .words<&E::rule>("rule", {"clock", "bernoulli"}, "one clock a particle (any time step), or Eq. (16) as it stands",
+                       "R15")
+      .number<&E::rate>("rate", "kg m^-2 s^-1", from(0, 1e6), "Er", "Eq. (16)")
+      .number<&E::threshold_surface>("threshold_surface", "1/s", above(0, 1e6), "gamma_0 at the cover's surface", "R13")
+      .number<&E::threshold_base>("threshold_base", "1/s", above(0, 1e6), "gamma_0 at the cover's base", "R13")
+      .words<&E::column>("column", {"normal", "vertical"}, "along which the load of a particle is summed",
+                         "Fig. 8, R12")
+      .plain<&E::spontaneous>("spontaneous", "the cover may fail where no flow touches it", "R13")
+      .number<&E::friction_strain>("friction_strain", "", from(0, 1e12), "factor on gamma_f; 0: off", "Eq. (14), R14");
+
+  using O = OutputSection;
+  Rows<&Scene::output>(r, "output", "what the run folder gets")
+      .number<&O::frames_per_second>("frames_per_second", "1/s", from(0, 1e5), "of simulated time")
+      .plain<&O::particles>("particles", "write the particles of each frame")
+      .plain<&O::smoke>("smoke", "write the smoke of each frame")
+      .plain<&O::preview>("preview", "draw a picture of each frame")
+      .number<&O::preview_width>("preview_width", "", from(16, 16384), "of the pictures, in pixels");
+}
+
+const Registry& registry() {
+  static const Registry table = [] {
+    Registry r;
+    add_setting(r);
+    add_snow(r);
+    add_smoke(r);
+    add_rest(r);
+    return r;
+  }();
+  return table;
+}
+
+/// Where the paper's constants differ from measured snow. What the paper does not have, friction, settling, compaction
+/// and a threshold speed, is off.
+void apply_paper(Scene& scene) {
+  scene.dense_flow->friction_mu = 0;
+  scene.dense_flow->friction_xi = 0;
+  scene.dense_flow->compaction_time = 0;
+  scene.suspension->settling_speed = 0;
+  scene.coupling->generation->constant = 0.2;
+  scene.coupling->generation->threshold_speed = 0;
+}
+
+template <class Row> const Row* find(const std::vector<Row>& rows, std::string_view path) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.path == path; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+}  // namespace
+
+const std::vector<Section>& sections() {
+  return registry().sections;
+}
+const std::vector<Key>& keys() {
+  return registry().keys;
+}
+const Section* find_section(std::string_view path) {
+  return find(sections(), path);
+}
+const Key* find_key(std::string_view path) {
+  return find(keys(), path);
+}
+
+Scene complete_scene(std::string_view preset) {
+  Scene scene;
+  for (const Section& section : sections()) section.create(scene);
+  scene.scene.preset = preset;
+  if (preset == "paper") apply_paper(scene);
+  return scene;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,55 @@
+#include "simulation/run.hpp"
+
+#include "core/parallel.hpp"
+#include "simulation/recorder.hpp"
+
+namespace spindrift {
+namespace {
+
+template <int Dim>
+Progress progress_of(const Simulation<Dim>& s, double wall_seconds) {
+  Progress progress;
+  progress.time = s.time();
+  progress.end_time = s.scene().scene.end_time;
+  progress.dt = s.report().dt;
+  progress.limiter = s.report().limiter;
+  progress.step = s.n_steps();
+  progress.n_dense = s.dense() ? s.dense()->particles.size() : 0;
+  progress.n_entrained = s.masses().n_entrained;
+  progress.smoke_mass = s.smoke_mass();
+  progress.wall_seconds = wall_seconds;
+  return progress;
+}
+
+template <int Dim>
+ExitCode run_in(const Scene& scene, const RunOptions& options) {
+  const ThreadLimit threads(options.threads);
+  Simulation<Dim> simulation(scene);
+  Recorder<Dim> recorder(scene, options);
+  recorder.follow(simulation);
+  while (!simulation.done()) {
+    if (options.stop && options.stop->load()) {
+      recorder.finish(simulation, "stopped");
+      return ExitCode::resumable;
+    }
+    try {
+      simulation.step();
+    } catch (const Error& failure) {
+      if (failure.code() != ExitCode::unstable) throw;
+      recorder.finish(simulation, "unstable", failure.what());
+      throw;
+    }
+    recorder.follow(simulation);
+    if (options.on_progress) options.on_progress(progress_of(simulation, recorder.wall_seconds()));
+  }
+  recorder.finish(simulation, "done");
+  return ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode run_scene(const Scene& scene, const RunOptions& options) {
+  return scene.scene.dim == 3 ? run_in<3>(scene, options) : run_in<2>(scene, options);
+}
+
+}  // namespace spindrift

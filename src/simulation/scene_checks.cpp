@@ -1,0 +1,167 @@
+#include "simulation/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "simulation/units.hpp"
+
+namespace spindrift {
+namespace {
+
+constexpr std::string_view axis_names[2][3] = {{"x", "z", ""}, {"x", "y", "z"}};
+
+class Checker {
+ public:
+  Checker(const Scene& scene, const Places& places, SceneReport& report)
+      : scene_(scene), places_(places), report_(report) {}
+
+  void run() {
+    names();
+    sections();
+    corners("domain", scene_.domain.lower, scene_.domain.upper);
+    if (scene_.terrain) ground(*scene_.terrain);
+    if (scene_.release) release(*scene_.release);
+    if (scene_.cover && scene_.cover->to >= 0)
+      ordered("cover.from", scene_.cover->from, "cover.to", scene_.cover->to, true);
+    if (scene_.entrainment)
+      ordered("entrainment.threshold_surface", scene_.entrainment->threshold_surface, "entrainment.threshold_base",
+              scene_.entrainment->threshold_base, false);
+    sizes();
+  }
+
+ private:
+  void names() {
+    const std::string& name = scene_.scene.name;
+    const auto allowed = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
+             c == '-';
+    };
+    if (name.empty() || name.size() > 64 || name == "." || name == ".." ||
+        !std::all_of(name.begin(), name.end(), allowed))
+      add("scene.name", fmt::format("got {}, expected 1 to 64 letters, digits, '.', '_' or '-'", text_of({name, {}})));
+    if (scene_.scene.dim == 2 && report_.good({"scene.dim"}))
+      for (const char* side : {"domain.front", "domain.back"})
+        if (places_.contains(side)) add(side, "a 2D scene has no such side; scene.dim is 2");
+  }
+
+  void sections() {
+    need(scene_.release.has_value(), "release", scene_.dense_flow.has_value(), "dense_flow");
+    need(scene_.cover.has_value(), "cover", scene_.terrain.has_value(), "terrain");
+    need(scene_.cover.has_value(), "cover", scene_.dense_flow.has_value(), "dense_flow");
+    need(scene_.coupling.has_value(), "coupling", scene_.dense_flow.has_value(), "dense_flow");
+    need(scene_.coupling.has_value(), "coupling", scene_.suspension.has_value(), "suspension");
+    need(scene_.entrainment.has_value(), "entrainment", scene_.cover.has_value(), "cover");
+    need(scene_.entrainment.has_value(), "entrainment", scene_.dense_flow.has_value(), "dense_flow");
+  }
+
+  void need(bool present, std::string_view path, bool other_present, std::string_view other) {
+    if (present && !other_present && report_.good({other}))
+      add(path, fmt::format("needs the section [{}], which the scene does not have", other));
+  }
+
+  /// Whether both corners are there and in order; says so if not.
+  bool corners(std::string_view section, const std::vector<double>& lower, const std::vector<double>& upper) {
+    const std::string low = fmt::format("{}.lower", section), high = fmt::format("{}.upper", section);
+    if (!report_.good({low, high, "scene.dim"})) return false;
+    if (lower.empty()) add(low, fmt::format("missing, expected a list of {} lengths", scene_.scene.dim));
+    if (upper.empty()) add(high, fmt::format("missing, expected a list of {} lengths", scene_.scene.dim));
+    if (lower.empty() || upper.empty()) return false;
+    for (std::size_t k = 0; k < lower.size(); ++k)
+      if (!(lower[k] < upper[k]))
+        add(high, fmt::format("got {} along {}, expected more than {} of {} at {}", number_text(upper[k]), axis(k),
+                              number_text(lower[k]), low, report_.text_of(place_of(places_, low))));
+    return report_.good({low, high});
+  }
+
+  void release(const ReleaseSection& release) {
+    if (!report_.good({"release.shape"})) return;
+    if (release.shape == "slab") {
+      if (!scene_.terrain && report_.good({"terrain"}))
+        add("release.shape", "\"slab\" needs the section [terrain], which the scene does not have");
+      return;
+    }
+    if (!corners("release", release.lower, release.upper) || !report_.good({"domain.lower", "domain.upper"})) return;
+    for (std::size_t k = 0; k < release.lower.size(); ++k) {
+      if (release.lower[k] < scene_.domain.lower[k]) outside("release.lower", release.lower[k], "domain.lower", k);
+      if (release.upper[k] > scene_.domain.upper[k]) outside("release.upper", release.upper[k], "domain.upper", k);
+    }
+  }
+
+  void outside(std::string_view path, double value, std::string_view bound, std::size_t k) {
+    add(path, fmt::format("got {} along {}, expected a box inside the domain, whose {} stands at {}",
+                          number_text(value), axis(k), bound, report_.text_of(place_of(places_, bound))));
+  }
+
+  void ground(const TerrainSection& terrain) {
+    if (!report_.good({"terrain.shape"})) return;
+    if (terrain.shape == "polyline") polyline(terrain.points);
+    if (terrain.shape == "cliff" && report_.good({"terrain.cliff_at", "terrain.cliff_height", "terrain.drop"}) &&
+        terrain.cliff_at + terrain.cliff_height >= terrain.drop)
+      add("terrain.cliff_height",
+          fmt::format("got {}, expected a cliff above the slope's foot: cliff_at + cliff_height "
+                      "below the drop of {} m at {}",
+                      number_text(terrain.cliff_height), number_text(terrain.drop),
+                      report_.text_of(place_of(places_, "terrain.drop"))));
+  }
+
+  void polyline(const std::vector<std::array<double, 2>>& points) {
+    constexpr std::string_view path = "terrain.points";
+    if (!report_.good({path})) return;
+    if (points.size() < 2) return add(path, fmt::format("got {} points, expected at least 2 (x, z)", points.size()));
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (points[i][0] < points[i - 1][0])
+        return add(path, fmt::format("point {} lies left of the one before it; x may not decrease", i + 1));
+      if (points[i] == points[i - 1]) return add(path, fmt::format("point {} is the same as the one before it", i + 1));
+    }
+    if (points[0][0] == points[1][0] || points[points.size() - 2][0] == points.back()[0])
+      add(path, "the first and the last piece may not be vertical");
+  }
+
+  void ordered(std::string_view low, double low_value, std::string_view high, double high_value, bool strictly) {
+    if (!report_.good({low, high}) || high_value > low_value || (!strictly && high_value == low_value)) return;
+    add(high,
+        fmt::format("got {}, expected {} {} of {} at {}", number_text(high_value), strictly ? "more than" : "at least",
+                    number_text(low_value), low, report_.text_of(place_of(places_, low))));
+  }
+
+  /// The domain holds at least one cell and one particle along each axis.
+  void sizes() {
+    if (!report_.good({"scene.dim", "domain.lower", "domain.upper"})) return;
+    double shortest = scene_.domain.upper[0] - scene_.domain.lower[0];
+    for (std::size_t k = 1; k < scene_.domain.lower.size(); ++k)
+      shortest = std::min(shortest, scene_.domain.upper[k] - scene_.domain.lower[k]);
+    const auto fits = [&](std::string_view path, double size) {
+      if (report_.good({path}) && size > shortest)
+        add(path, fmt::format("got {}, expected at most the domain's shortest side, {} m, at {}", number_text(size),
+                              number_text(shortest), report_.text_of(place_of(places_, "domain.upper"))));
+    };
+    if (scene_.suspension) fits("suspension.cell_size", scene_.suspension->cell_size);
+    if (scene_.dense_flow) fits("dense_flow.support_radius", scene_.dense_flow->support_radius);
+  }
+
+  std::string_view axis(std::size_t k) const { return axis_names[scene_.scene.dim - 2][k]; }
+  void add(std::string_view path, std::string_view what) { report_.add(place_of(places_, path), path, what); }
+
+  const Scene& scene_;
+  const Places& places_;
+  SceneReport& report_;
+};
+
+}  // namespace
+
+Place place_of(const Places& places, std::string_view path) {
+  for (;;) {
+    const auto found = places.find(path);
+    if (found != places.end()) return found->second;
+    const std::size_t dot = path.rfind('.');
+    if (dot == std::string_view::npos) return {};
+    path = path.substr(0, dot);
+  }
+}
+
+void check_scene(const Scene& scene, const Places& places, SceneReport& report) {
+  Checker(scene, places, report).run();
+}
+
+}  // namespace spindrift

@@ -1,0 +1,191 @@
+#include "simulation/scene_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "core/error.hpp"
+#include "simulation/registry.hpp"
+#include "simulation/scene_checks.hpp"
+#include "simulation/scene_report.hpp"
+#include "simulation/scene_values.hpp"
+#include "simulation/spelling.hpp"
+
+namespace spindrift {
+namespace {
+
+constexpr int schema_version = 1;
+
+/// A key that the file sets, with what it sets it to.
+struct Entry {
+  const Key* key;
+  const TomlValue* literal;
+};
+
+class Reader {
+ public:
+  Reader(TomlTable document, const std::string& file) : document_(std::move(document)), report_(file) {}
+
+  Scene read(const std::string& default_name) {
+    check_version();
+    for (const TomlMember& member : document_)
+      if (member.name != "schema_version") visit(member, member.name);
+    if (!places_.contains("domain") && report_.good({"domain"}))
+      report_.add({}, "domain", "missing, expected a section [domain]");
+    assign_if([](const Key& key) { return key.section() == "scene"; });
+    take_defaults();
+    assign_if([](const Key& key) { return key.section() != "scene"; });
+    derive(default_name);
+    check_scene(scene_, places_, report_);
+    report_.throw_if_bad();
+    return scene_;
+  }
+
+  void apply(const std::string& setting) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return report_.add({0, 0}, fmt::format("\"{}\"", setting), "expected key=value, as in scene.end_time=5");
+    const auto trim = [](std::string_view s) {
+      while (!s.empty() && s.front() == ' ') s.remove_prefix(1);
+      while (!s.empty() && s.back() == ' ') s.remove_suffix(1);
+      return s;
+    };
+    const std::string_view view = setting;
+    const std::string_view path = trim(view.substr(0, equals));
+    constexpr std::ptrdiff_t deepest = 2;  // coupling.drag.constant
+    if (std::count(path.begin(), path.end(), '.') > deepest) return report_.add({0, 0}, path, "unknown key");
+    set_member(document_, path, trim(view.substr(equals + 1)));
+  }
+
+ private:
+  void check_version() {
+    for (const TomlMember& member : document_) {
+      if (member.name != "schema_version") continue;
+      const auto* version = std::get_if<std::int64_t>(&member.value[0].value);
+      if (version == nullptr || *version != schema_version)
+        report_.add(member.value[0].place, "schema_version",
+                    fmt::format("got {}, expected {}", text_of(member.value[0]), schema_version));
+      return;
+    }
+    report_.add({}, "schema_version", fmt::format("missing, expected schema_version = {} at the top", schema_version));
+  }
+
+  void visit(const TomlMember& member, const std::string& path) {
+    const TomlValue& literal = member.value[0];
+    const auto* table = std::get_if<TomlTable>(&literal.value);
+    if (const Key* key = find_key(path)) {
+      places_[path] = literal.place;
+      entries_.push_back({key, &literal});
+    } else if (const Section* section = find_section(path)) {
+      places_[path] = member.place;
+      if (table == nullptr)
+        return report_.add(literal.place, path, fmt::format("got {}, expected a section [{}]", text_of(literal), path));
+      section->create(scene_);
+      for (const TomlMember& inner : *table) visit(inner, path + "." + inner.name);
+    } else {
+      unknown(member.place, path, table != nullptr);
+    }
+  }
+
+  /// Suggests, in this order: a key of the same section, the same key of another section, the nearest whole path.
+  void unknown(const Place& place, const std::string& path, bool is_section) {
+    std::vector<std::string_view> paths, siblings;
+    const std::size_t dot = path.rfind('.');
+    const std::string section = dot == std::string::npos ? "" : path.substr(0, dot);
+    const std::string_view name = std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1);
+    std::optional<std::string_view> elsewhere;
+    if (is_section) {
+      for (const Section& known : sections()) paths.push_back(known.path);
+    } else {
+      for (const Key& key : keys()) {
+        paths.push_back(key.path);
+        if (key.section() == section) siblings.push_back(key.name());
+        if (key.name() == name && !elsewhere) elsewhere = key.path;
+      }
+    }
+    std::optional<std::string_view> meant = nearest(name, siblings);
+    report_.suspect(meant ? fmt::format("{}.{}", section, *meant) : std::string());
+    if (!meant) meant = elsewhere;
+    if (!meant && (meant = nearest(path, paths))) report_.suspect(*meant);
+    report_.add(place, path, fmt::format("unknown {}{}", is_section ? "section" : "key", did_you_mean(meant)));
+  }
+
+  template <class Chosen> void assign_if(Chosen chosen) {
+    for (const Entry& entry : entries_) {
+      if (!chosen(*entry.key)) continue;
+      const bool needs_dim = std::holds_alternative<std::vector<double>*>(entry.key->field(scene_));
+      if (!needs_dim || report_.good({"scene.dim"})) assign(scene_, *entry.key, *entry.literal, report_);
+    }
+  }
+
+  /// The preset's values for every key of the sections that exist, other than [scene].
+  void take_defaults() {
+    Scene preset = complete_scene(scene_.scene.preset);
+    for (const Key& key : keys()) {
+      if (key.section() == "scene" || !find_section(key.section())->exists(scene_)) continue;
+      std::visit([&](auto* to) { *to = *std::get<decltype(to)>(key.field(preset)); }, key.field(scene_));
+    }
+  }
+
+  /// Defaults that follow from other values.
+  void derive(const std::string& default_name) {
+    const auto dim = static_cast<std::size_t>(scene_.scene.dim);
+    if (!places_.contains("scene.name")) scene_.scene.name = default_name;
+    if (scene_.domain.gravity.empty()) {
+      scene_.domain.gravity.assign(dim, 0.0);
+      scene_.domain.gravity.back() = -9.81;
+    }
+    if (scene_.release && scene_.release->velocity.empty()) scene_.release->velocity.assign(dim, 0.0);
+  }
+
+  TomlTable document_;
+  SceneReport report_;
+  Scene scene_;
+  Places places_;
+  std::vector<Entry> entries_;
+};
+
+/// The file's name without folder and ending, letters that a name may not have turned into '-'.
+std::string name_from(const std::string& file) {
+  std::string name = std::filesystem::path(file).stem().string().substr(0, 64);
+  for (char& c : name)
+    if (!(c >= 'a' && c <= 'z') && !(c >= 'A' && c <= 'Z') && !(c >= '0' && c <= '9') && c != '.' && c != '_') c = '-';
+  return name.empty() || name == "." || name == ".." ? "scene" : name;
+}
+
+[[noreturn]] void refuse(const std::string& file, std::string_view why) {
+  throw Error(ExitCode::bad_input, fmt::format("{}: {}", file, why));
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& file, const std::vector<std::string>& settings) {
+  std::optional<Reader> reader;
+  try {
+    reader.emplace(parse_toml(text), file);
+  } catch (const SyntaxError& error) {
+    refuse(fmt::format("{}:{}:{}", file, error.place.line, error.place.column), error.why);
+  }
+  for (const std::string& setting : settings) reader->apply(setting);
+  return reader->read(name_from(file));
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+  constexpr std::size_t most = 64 * 1024;
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) refuse(file.string(), "there is no such file");
+  if (!std::filesystem::is_regular_file(status)) refuse(file.string(), "not a regular file");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+  if (!stream) refuse(file.string(), "cannot be opened for reading");
+  std::string text(most + 1, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), stream.get()));
+  if (text.size() > most) refuse(file.string(), "longer than the 64 kB that a scene may have");
+  if (std::ferror(stream.get()) != 0) refuse(file.string(), "cannot be read");
+  return parse_scene(text, file.string(), settings);
+}
+
+}  // namespace spindrift

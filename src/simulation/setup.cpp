@@ -1,0 +1,205 @@
+#include "simulation/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "sph/sampling.hpp"
+#include "terrain/profiles.hpp"
+
+namespace spindrift {
+namespace {
+
+template <int Dim>
+Vec<Dim> vector_or(const std::vector<double>& numbers, const Vec<Dim>& otherwise) {
+  if (numbers.empty()) return otherwise;
+  SPINDRIFT_CHECK(numbers.size() == Dim);
+  return Eigen::Map<const Vec<Dim>>(numbers.data());
+}
+
+template <int Dim>
+Box<Dim> box_of(const std::vector<double>& lower, const std::vector<double>& upper) {
+  return {vector_or<Dim>(lower, Vec<Dim>::Zero()), vector_or<Dim>(upper, Vec<Dim>::Zero())};
+}
+
+/// The ground goes on beyond the domain, so that open sides have ground to leave over.
+constexpr double beyond_the_domain = 50;    // [m]
+constexpr double ground_resolution = 0.25;  // of curved ground [m]
+
+std::vector<Vec<2>> ground_vertices(const TerrainSection& terrain, double domain_right) {
+  if (terrain.shape == "polyline") {
+    std::vector<Vec<2>> vertices;
+    for (const auto& point : terrain.points) vertices.emplace_back(point[0], point[1]);
+    return vertices;
+  }
+  SlopeProfile slope;
+  slope.start = {terrain.start[0], terrain.start[1]};
+  slope.angle = terrain.angle;
+  slope.drop = terrain.drop;
+  slope.runout_angle = terrain.runout_angle;
+  slope.transition_radius = terrain.transition_radius;
+  slope.bump_length = terrain.bump_length;
+  if (terrain.shape == "bumps") slope.bump_height = terrain.bump_height;
+  if (terrain.shape == "cliff") {
+    slope.cliff_at = terrain.cliff_at;
+    slope.cliff_height = terrain.cliff_height;
+  }
+  return slope_profile(slope, domain_right + beyond_the_domain, ground_resolution);
+}
+
+Side side_of(const std::string& word) { return word == "open" ? Side::open : Side::closed; }
+
+template <int Dim>
+Breadth breadth_of(const Box<Dim>& domain) {
+  if constexpr (Dim == 3) {
+    return {domain.lower[1], domain.upper[1]};
+  } else {
+    return {};
+  }
+}
+
+template <int Dim>
+Particles<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls, double spacing) {
+  const ReleaseSection& release = *scene.release;
+  SnowKind<Dim> kind;
+  kind.spacing = spacing;
+  kind.density = scene.dense_flow->density;
+  kind.velocity = vector_or<Dim>(release.velocity, Vec<Dim>::Zero());
+  if (release.shape == "box") return sample_box<Dim>(box_of<Dim>(release.lower, release.upper), kind);
+  Slab slab;
+  slab.at = release.at;
+  slab.length = release.length;
+  slab.base = scene.cover ? scene.cover->depth : 0;
+  slab.thickness = release.thickness;
+  slab.y = breadth_of(walls.domain);
+  return sample_slab<Dim>(*walls.terrain, slab, kind);
+}
+
+ForceLaw law_of(const std::string& word) { return word == "paper" ? ForceLaw::paper : ForceLaw::air; }
+
+}  // namespace
+
+template <int Dim>
+Vec<Dim> make_gravity(const Scene& scene) {
+  return vector_or<Dim>(scene.domain.gravity, -9.81 * up<Dim>());
+}
+
+template <int Dim>
+Walls<Dim> make_walls(const Scene& scene) {
+  Walls<Dim> walls;
+  walls.domain = box_of<Dim>(scene.domain.lower, scene.domain.upper);
+  walls.sides[0] = {side_of(scene.domain.left), side_of(scene.domain.right)};
+  if constexpr (Dim == 3) walls.sides[1] = {side_of(scene.domain.front), side_of(scene.domain.back)};
+  walls.sides[up_axis<Dim>] = {side_of(scene.domain.bottom), side_of(scene.domain.top)};
+  if (scene.terrain) walls.terrain.emplace(ground_vertices(*scene.terrain, walls.domain.upper[0]));
+  return walls;
+}
+
+template <int Dim>
+std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls, std::uint64_t first_id) {
+  if (!scene.cover) return std::nullopt;
+  CoverLayer layer;
+  layer.from = scene.cover->from;
+  layer.to = scene.cover->to < 0 ? walls.terrain->foot(walls.domain.upper).place[0] : scene.cover->to;
+  layer.y = breadth_of(walls.domain);
+  layer.depth = scene.cover->depth;
+  layer.seed = scene.scene.seed;
+  layer.relaxation_steps = scene.cover->relaxation_steps;
+  SnowKind<Dim> kind;
+  kind.spacing = scene.dense_flow->support_radius / 2;
+  kind.density = scene.cover->density;
+  kind.first_id = first_id;
+  return sample_cover<Dim>(*walls.terrain, layer, kind);
+}
+
+template <int Dim>
+std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Dim>& walls) {
+  if (!scene.dense_flow) return std::nullopt;
+  const DenseFlowSection& section = *scene.dense_flow;
+  DenseFlowOptions options;
+  options.support_radius = section.support_radius;
+  options.density = section.density;
+  options.solver = section.solver == "wcsph" ? DenseSolver::wcsph : DenseSolver::dfsph;
+  options.viscosity = section.viscosity;
+  options.no_slip = section.wall == "no_slip";
+  options.pressure = {section.density_tolerance, section.divergence_tolerance, section.max_iterations};
+  options.sound_speed = section.sound_speed;
+  if (options.solver == DenseSolver::wcsph && options.sound_speed == 0)
+    options.sound_speed = 10 * std::sqrt(2 * make_gravity<Dim>(scene).norm() * walls.domain.size()[up_axis<Dim>]);
+  std::optional<DenseFlow<Dim>> dense(options);
+  if (scene.release) dense->particles = released_snow<Dim>(scene, walls, options.spacing());
+  return dense;
+}
+
+template <int Dim>
+std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<Dim>& walls) {
+  if (!scene.suspension) return std::nullopt;
+  const SuspensionSection& section = *scene.suspension;
+  MacGrid<Dim> grid;
+  grid.origin = walls.domain.lower;
+  grid.dx = section.cell_size;
+  for (int k = 0; k < Dim; ++k)
+    grid.cells[k] = std::max(1, static_cast<int>(std::lround(walls.domain.size()[k] / section.cell_size)));
+  SuspensionOptions<Dim> options;
+  options.gravity = make_gravity<Dim>(scene);
+  options.air_density = section.air_density;
+  options.scheme =
+      section.scheme == "semi_lagrangian" ? AdvectionScheme::semi_lagrangian : AdvectionScheme::maccormack;
+  options.viscosity = section.viscosity;
+  options.diffusivity = section.diffusivity;
+  options.settling_speed = section.settling_speed;
+  if (section.confinement) options.confinement = section.confinement->strength;
+  options.pressure = {section.tolerance, section.max_iterations};
+  options.moving_core = section.moving_core;
+  return std::optional<Suspension<Dim>>(std::in_place, grid, walls.sides, options);
+}
+
+std::optional<BedFriction> make_bed_friction(const Scene& scene) {
+  if (!scene.dense_flow || !scene.terrain || scene.dense_flow->friction_acts_on == "none") return std::nullopt;
+  return BedFriction{scene.dense_flow->friction_mu, scene.dense_flow->friction_xi};
+}
+
+std::optional<CouplingOptions> make_coupling(const Scene& scene) {
+  if (!scene.coupling) return std::nullopt;
+  const CouplingSection& section = *scene.coupling;
+  if (!section.drag && !section.lift && !section.generation && !section.adhesion) return std::nullopt;
+  const double spacing = scene.dense_flow->support_radius / 2;
+  const double initial_mass = scene.dense_flow->density * std::pow(spacing, scene.scene.dim);
+  CouplingOptions options;
+  options.overlap_fraction = section.overlap_fraction;
+  options.smoke.radius = spacing / 2;
+  options.smoke.min_mass = section.min_mass * initial_mass;
+  options.smoke.max_mass = section.max_mass * initial_mass;
+  options.air_density = scene.suspension->air_density;
+  if (section.drag) options.drag = ForceOptions{section.drag->constant, law_of(section.drag->law)};
+  if (section.lift) options.lift = ForceOptions{section.lift->constant, law_of(section.lift->law)};
+  if (section.generation)
+    options.smoke.generation = GenerationOptions{section.generation->constant, section.generation->threshold_speed};
+  if (section.adhesion) options.smoke.adhesion = AdhesionOptions{section.adhesion->constant};
+  return options;
+}
+
+std::optional<EntrainmentOptions> make_entrainment(const Scene& scene) {
+  if (!scene.entrainment) return std::nullopt;
+  const EntrainmentSection& section = *scene.entrainment;
+  EntrainmentOptions options;
+  options.rule = section.rule == "bernoulli" ? EntrainmentRule::bernoulli : EntrainmentRule::clock;
+  options.rate = section.rate;
+  options.threshold = {section.threshold_surface, section.threshold_base};
+  options.column = section.column == "vertical" ? OverburdenColumn::vertical : OverburdenColumn::normal;
+  options.spontaneous = section.spontaneous;
+  options.friction_factor = section.friction_strain;
+  return options;
+}
+
+#define INSTANTIATE(Dim)                                                                                        \
+  template Vec<Dim> make_gravity<Dim>(const Scene&);                                                            \
+  template Walls<Dim> make_walls<Dim>(const Scene&);                                                            \
+  template std::optional<Cover<Dim>> make_cover<Dim>(const Scene&, const Walls<Dim>&, std::uint64_t);           \
+  template std::optional<DenseFlow<Dim>> make_dense_flow<Dim>(const Scene&, const Walls<Dim>&);                 \
+  template std::optional<Suspension<Dim>> make_suspension<Dim>(const Scene&, const Walls<Dim>&);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+
+}  // namespace spindrift

@@ -1,0 +1,53 @@
+#pragma once
+/// From a scene's numbers to the things that the step works on. Absent sections give empty optionals.
+
+#include <optional>
+
+#include "coupling/drag_lift.hpp"
+#include "coupling/smoke_exchange.hpp"
+#include "entrainment/entrainment.hpp"
+#include "grid/suspension.hpp"
+#include "simulation/scene.hpp"
+#include "sph/bed_friction.hpp"
+#include "sph/cover.hpp"
+#include "sph/dense_flow.hpp"
+#include "terrain/walls.hpp"
+
+namespace spindrift {
+
+template <int Dim>
+Vec<Dim> make_gravity(const Scene& scene);
+
+/// Terrain and closed sides.   Throws Error(bad_input): numbers that describe no ground.
+template <int Dim>
+Walls<Dim> make_walls(const Scene& scene);
+
+/// The cover at rest, ids from `first_id`; empty without [cover].
+template <int Dim>
+std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls, std::uint64_t first_id);
+
+/// The dense flow with the released snow in it, ids from 0; empty without [dense_flow].
+template <int Dim>
+std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Dim>& walls);
+
+/// The air at rest, without smoke; empty without [suspension].
+template <int Dim>
+std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<Dim>& walls);
+
+/// Friction of the bed; empty where it acts on nothing.
+std::optional<BedFriction> make_bed_friction(const Scene& scene);
+
+/// What the coupling needs, each term only where its section is there.
+struct CouplingOptions {
+  double overlap_fraction = 0.8;
+  double air_density = 1.2;  ///< [kg m^-3]
+  std::optional<ForceOptions> drag, lift;
+  SmokeOptions smoke;
+};
+
+/// Empty where no term of [coupling] is there.
+std::optional<CouplingOptions> make_coupling(const Scene& scene);
+
+std::optional<EntrainmentOptions> make_entrainment(const Scene& scene);
+
+}  // namespace spindrift

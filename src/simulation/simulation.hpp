@@ -1,0 +1,96 @@
+#pragma once
+/// The simulation: all layers of a scene, and the step that moves them on (paper Fig. 3).
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/stages.hpp"
+#include "coupling/core_cells.hpp"
+#include "coupling/ground_surface.hpp"
+#include "coupling/overlap.hpp"
+#include "simulation/ledger.hpp"
+#include "simulation/setup.hpp"
+
+namespace spindrift {
+
+template <int Dim>
+class Simulation {
+ public:
+  /// Builds the layers that the scene names, at rest or as released.
+  /// Throws Error(bad_input): numbers that fit no scene.   Pre: the scene passed the reader's checks, scene.dim == Dim.
+  explicit Simulation(const Scene& scene);
+
+  /// One step of the paper's flowchart.
+  /// Throws Error(unstable) naming field, id or cell, place, step and dt: a value that is not finite, a mass that is not
+  /// positive, a runaway speed. The state is then that of the failed step; what was written before stands.
+  void step();
+
+  double time() const { return time_; }
+  std::uint64_t n_steps() const { return n_steps_; }
+  bool done() const { return time_ >= scene_.scene.end_time; }
+
+  const Scene& scene() const { return scene_; }
+  const Walls<Dim>& walls() const { return walls_; }
+  const Vec<Dim>& gravity() const { return gravity_; }
+  const std::optional<DenseFlow<Dim>>& dense() const { return dense_; }
+  const std::optional<Cover<Dim>>& cover() const { return cover_; }
+  const std::optional<Suspension<Dim>>& suspension() const { return suspension_; }
+  /// 1 for particles of the overlap region in the last step, one a particle; empty without coupling.
+  const std::vector<std::uint8_t>& overlap() const { return overlap_; }
+  const Exchange<Dim>& exchange() const { return exchange_; }
+
+  const StepReport<Dim>& report() const { return report_; }
+  const MassLedger& masses() const { return masses_; }
+  const Stages& stages() const { return stages_; }
+  std::size_t n_dense_initial() const { return n_dense_initial_; }
+  double dense_mass() const;  ///< [kg]
+  double cover_mass() const;  ///< [kg]
+  double smoke_mass() const;  ///< [kg]
+  /// (dense + cover + smoke + outflow + deposit) / initial - 1.
+  double mass_error() const;
+  /// Bytes of state and scratch, by part: "dense_flow", "cover", "suspension", "coupling", "entrainment".
+  std::vector<std::pair<std::string, std::size_t>> memory() const;
+
+ private:
+  void choose_time_step();
+  void predict_velocities();
+  void exchange_layers();
+  void advance_dense_flow();
+  void advance_suspension();
+  void entrain_cover();
+  void remove_what_left();
+  void check_state() const;
+  CoverView<Dim> cover_view() const;
+
+  Scene scene_;
+  Vec<Dim> gravity_;
+  Walls<Dim> walls_;
+
+  std::optional<DenseFlow<Dim>> dense_;
+  std::optional<BedFriction> bed_friction_;
+  Columns<Dim> columns_;
+  std::vector<double> normal_impulse_;
+
+  std::optional<Cover<Dim>> cover_;
+  std::optional<GroundSurface<Dim>> ground_;
+
+  std::optional<Suspension<Dim>> suspension_;
+  std::optional<CouplingOptions> coupling_;
+  std::vector<std::uint8_t> overlap_;
+  OverlapRegion<Dim> region_;
+  Exchange<Dim> exchange_;
+  CoreCells<Dim> core_;
+  double n_interior_ = 0;  ///< number density inside the dense flow
+
+  std::optional<Entrainment<Dim>> entrainment_;
+
+  double time_ = 0, dt_ = 0;
+  std::uint64_t n_steps_ = 0;
+  std::size_t n_dense_initial_ = 0;
+  StepReport<Dim> report_;
+  MassLedger masses_;
+  Stages stages_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,111 @@
+#include "sph/cover.hpp"
+
+#include <algorithm>
+
+namespace spindrift {
+namespace {
+
+template <int Dim> void sort_by_cell(Cover<Dim>& cover) {
+  cover.cells = CellList<Dim>(cover.bin_size);
+  cover.cells.build(cover.particles);
+  cover.cells.release_scratch();
+  const auto reorder = [&](auto& array) {
+    auto sorted = array;
+    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = array[cover.cells.order()[i]];
+    array.swap(sorted);
+  };
+  reorder(cover.foot);
+  reorder(cover.hazard);
+}
+
+}  // namespace
+
+template <int Dim> std::span<const std::uint32_t> Cover<Dim>::slots_in(GroundBin<Dim> bin) const {
+  for (int k = 0; k < Dim - 1; ++k) bin[k] -= lower[k];
+  if (!inside<Dim - 1>(bin, shape)) return {};
+  const std::size_t b = flat<Dim - 1>(bin, shape);
+  return {members.data() + first[b], first[b + 1] - first[b]};
+}
+
+template <int Dim> double Cover<Dim>::surface(const GroundBin<Dim>& bin) const {
+  for (const std::uint32_t slot : slots_in(bin))
+    if (alive(slot)) return foot[slot].distance + spacing / 2;
+  return 0;
+}
+
+template <int Dim> void index_cover(Cover<Dim>& cover) {
+  const std::size_t n = cover.particles.size();
+  cover.bin_size = 2 * cover.spacing;
+  sort_by_cell(cover);
+  cover.lower.fill(0);
+  cover.shape.fill(0);
+  cover.members.clear();
+  bool any = false;
+  GroundBin<Dim> upper{};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (!cover.alive(i)) continue;
+    const GroundBin<Dim> bin = ground_bin<Dim>(cover.foot[i].place, cover.bin_size);
+    for (int k = 0; k < Dim - 1; ++k) {
+      cover.lower[k] = any ? std::min(cover.lower[k], bin[k]) : bin[k];
+      upper[k] = any ? std::max(upper[k], bin[k]) : bin[k];
+      cover.shape[k] = upper[k] - cover.lower[k] + 1;
+    }
+    any = true;
+    cover.members.push_back(i);
+  }
+
+  const auto bin_of = [&](std::uint32_t slot) {
+    GroundBin<Dim> bin = ground_bin<Dim>(cover.foot[slot].place, cover.bin_size);
+    for (int k = 0; k < Dim - 1; ++k) bin[k] -= cover.lower[k];
+    return flat<Dim - 1>(bin, cover.shape);
+  };
+  cover.first.assign(count<Dim - 1>(cover.shape) + 1, 0);
+  for (const std::uint32_t slot : cover.members) ++cover.first[bin_of(slot) + 1];
+  for (std::size_t b = 1; b < cover.first.size(); ++b) cover.first[b] += cover.first[b - 1];
+  std::vector<std::uint32_t> next = cover.first;
+  std::vector<std::uint32_t> by_bin(cover.members.size());
+  for (const std::uint32_t slot : cover.members) by_bin[next[bin_of(slot)]++] = slot;
+  cover.members.swap(by_bin);
+  for (std::size_t b = 0; b + 1 < cover.first.size(); ++b)
+    std::sort(cover.members.begin() + cover.first[b], cover.members.begin() + cover.first[b + 1],
+              [&](std::uint32_t i, std::uint32_t j) {
+                const double above_i = cover.foot[i].distance, above_j = cover.foot[j].distance;
+                return above_i != above_j ? above_i > above_j : i < j;
+              });
+}
+
+template <int Dim> void remove_from_cover(Cover<Dim>& cover, std::size_t slot) {
+  if (!cover.alive(slot)) return;
+  cover.particles.mass[slot] = 0;
+  cover.particles.volume[slot] = 0;
+  cover.hazard[slot] = 0;
+  ++cover.n_dead;
+}
+
+template <int Dim> bool compact_cover(Cover<Dim>& cover) {
+  if (8 * cover.n_dead <= cover.particles.size()) return false;
+  const std::vector<double> volume = cover.particles.volume;
+  const auto drop_dead = [&volume](auto& array) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < volume.size(); ++i)
+      if (volume[i] > 0) array[n++] = array[i];
+    array.resize(n);
+  };
+  cover.particles.for_each_array(drop_dead);
+  drop_dead(cover.foot);
+  drop_dead(cover.hazard);
+  cover.n_dead = 0;
+  index_cover(cover);
+  return true;
+}
+
+#define INSTANTIATE(Dim)                                          \
+  template struct Cover<Dim>;                                     \
+  template void index_cover<Dim>(Cover<Dim>&);                    \
+  template void remove_from_cover<Dim>(Cover<Dim>&, std::size_t); \
+  template bool compact_cover<Dim>(Cover<Dim>&);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+
+}  // namespace spindrift

@@ -1,0 +1,219 @@
+#include <sys/wait.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// An empty folder in which the program runs, gone at the end.
+class Workplace {
+ public:
+  Workplace() {
+    std::string pattern = (fs::temp_directory_path() / "spindrift_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~Workplace() { fs::remove_all(folder_); }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+
+  /// Runs the program with words for a shell, in the folder.
+  Outcome run(const std::string& words, const std::string& environment = "") const {
+    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
+    const std::string line = "cd '" + folder_.string() + "' && " + environment +
+                             " '" SPINDRIFT_BINARY_DIR "/spindrift' " + words + " >'" + out.string() + "' 2>'" +
+                             err.string() + "'";
+    const int status = std::system(line.c_str());
+    const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return outcome;
+  }
+
+  std::size_t n_entries() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {})); }
+  const fs::path& folder() const { return folder_; }
+
+ private:
+  fs::path folder_;
+};
+
+const std::string scene = R"(schema_version = 1
+[scene]
+end_time = "20 ms"
+[domain]
+lower = [0, 0]
+upper = [8, 4]
+left = "closed"
+right = "closed"
+[release]
+shape = "box"
+lower = [0, 0]
+upper = [1, 2]
+[dense_flow]
+support_radius = 0.4
+[output]
+preview = false
+)";
+
+}  // namespace
+
+TEST_CASE("help and version go to stdout", "[commands]") {
+  const Workplace place;
+  CHECK(place.run("--version").out == "spindrift " SPINDRIFT_VERSION "\n");
+  const auto words = GENERATE(as<std::string>{}, "--help", "run --help", "check --help", "info --help", "-h");
+  const Outcome help = place.run(words);
+  CHECK(help.code == 0);
+  CHECK(help.err.empty());
+  CHECK(help.out.find("Example:  spindrift ") != std::string::npos);
+}
+
+TEST_CASE("a bad command line ends with code 2, says what was meant and touches nothing", "[commands]") {
+  const Workplace place;
+  place.write("a.toml", scene);
+  struct Row {
+    std::string words, message;
+  };
+  const auto row = GENERATE(
+      Row{"", "A subcommand is required\nSee spindrift --help.\n"},
+      Row{"rnu a.toml", "there is no command \"rnu\"; did you mean \"run\"?\nSee spindrift --help.\n"},
+      Row{"chekc a.toml", "there is no command \"chekc\"; did you mean \"check\"?\nSee spindrift --help.\n"},
+      Row{"frobnicate", "there is no command \"frobnicate\"\nSee spindrift --help.\n"},
+      Row{"--verson", "there is no option --verson; did you mean --version?\nSee spindrift --help.\n"},
+      Row{"run", "SCENE.toml is required\nSee spindrift run --help.\n"},
+      Row{"run a.toml --sett a=1", "there is no option --sett; did you mean --set?\nSee spindrift run --help.\n"},
+      Row{"run a.toml --frames_per_second=3",
+          "there is no option --frames_per_second; did you mean --frames-per-second?\nSee spindrift run --help.\n"},
+      Row{"info", "DIR is required\nSee spindrift info --help.\n"});
+  const Outcome outcome = place.run(row.words);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err == row.message);
+  CHECK(outcome.out.empty());
+  CHECK(place.n_entries() == 1);
+}
+
+TEST_CASE("options take only values of their kind", "[commands]") {
+  const Workplace place;
+  place.write("a.toml", scene);
+  const auto words =
+      GENERATE(as<std::string>{}, "run a.toml --threads -1", "run a.toml --threads many", "run a.toml --until",
+               "run a.toml --until never", "run a.toml --until -5", "run a.toml --seed -3", "run a.toml --seed 1.5",
+               "run a.toml --frames-per-second nan", "run a.toml b.toml", "run a.toml --set nonsense",
+               "run a.toml --set dense_flow.solvr=wcsph", "run b.toml", "run .", "check b.toml", "info a.toml");
+  CAPTURE(words);
+  const Outcome outcome = place.run(words);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  CHECK_FALSE(outcome.err.empty());
+  CHECK(place.n_entries() == 1);
+}
+
+TEST_CASE("a bad scene ends run and check with code 2 and all its errors", "[commands]") {
+  const Workplace place;
+  place.write("bad.toml", scene + "preveiw = true\n[dense_fow]\n[suspension]\ncell_size = -1\n");
+  const auto command = GENERATE(as<std::string>{}, "run", "check");
+  const Outcome outcome = place.run(command + " bad.toml");
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err ==
+        "bad.toml:17:1: output.preveiw: unknown key; did you mean \"preview\"?\n"
+        "bad.toml:18:2: dense_fow: unknown section; did you mean \"dense_flow\"?\n"
+        "bad.toml:20:13: suspension.cell_size: got -1, expected a length above 0 and at most 10000 m\n");
+  CHECK(outcome.out.empty());
+  CHECK(place.n_entries() == 1);
+}
+
+TEST_CASE("a scene that would not fit ends with code 6 and touches nothing", "[commands]") {
+  const Workplace place;
+  place.write("a.toml", scene);
+  const auto command = GENERATE(as<std::string>{}, "run", "check");
+  const Outcome outcome = place.run(command + " a.toml --set suspension.cell_size='1e-6 mm'");
+  CHECK(outcome.code == 6);
+  CHECK(outcome.err.find("suspension.cell_size") != std::string::npos);
+  CHECK(place.n_entries() == 1);
+}
+
+TEST_CASE("check tells what a run would need, and writes nothing", "[commands]") {
+  const Workplace place;
+  place.write("a.toml", scene);
+  const Outcome outcome = place.run("check a.toml --set suspension.cell_size=0.1 --set scene.end_time='2 s'");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(outcome.out.find("scene       a, 2D, 2 s\nparticles   50 released, 0 in the cover\n") == 0);
+  CHECK(outcome.out.find("cells       3,200 (80 x 40)\nframes      21\nmemory      about ") != std::string::npos);
+  CHECK(place.n_entries() == 1);
+}
+
+TEST_CASE("the locale of the user changes nothing", "[commands]") {
+  const Workplace place;
+  place.write("a.toml", scene);
+  const std::string words = "check a.toml --set suspension.cell_size='0.25 m'";
+  const std::string plain = place.run(words).out.substr(0, 120);
+  CHECK(place.run(words, "LC_ALL=de_DE.UTF-8 TZ=Asia/Tokyo").out.substr(0, 120) == plain);
+}
+
+TEST_CASE("info tells what run.json holds", "[commands]") {
+  const Workplace place;
+  const auto write_run = [&](const std::string& text) {
+    fs::create_directories(place.folder() / "r");
+    place.write("r/run.json", text);
+  };
+  write_run(R"({"status": "done", "time": 2.5, "mass": {"initial": 10, "dense": 9}, "dt_limiters": {}})");
+  const Outcome plain = place.run("info r");
+  CHECK(plain.code == 0);
+  CHECK(plain.out ==
+        "status                           done\ntime                             2.5\n"
+        "mass.initial                     10\nmass.dense                       9\n");
+  const Outcome json = place.run("info r --json");
+  CHECK(json.code == 0);
+  CHECK(json.out.find("{\n  \"status\": \"done\",\n  \"time\": 2.5,") == 0);
+
+  const auto broken = GENERATE(as<std::string>{}, "", "{", "[1]", "{\"status\": }", "\xFF\xFE");
+  write_run(broken);
+  CHECK(place.run("info r").code == 4);
+  CHECK(place.run("info r --json").code == 4);
+}
+
+TEST_CASE("a run goes to its end, names its folder and can be asked about", "[commands]") {
+  const Workplace place;
+  place.write("drop.toml", scene);
+  const Outcome run = place.run("run drop.toml");
+  CHECK(run.code == 0);
+  CHECK(run.out == "runs/drop\n");
+  CHECK(run.err.find("done: ") != std::string::npos);
+  CHECK(place.run("info runs/drop --json").out.find("\"status\": \"done\"") != std::string::npos);
+
+  const Outcome quiet = place.run("run drop.toml -o there --quiet --until '10 ms' --seed 3 --threads 1 --no-preview");
+  CHECK(quiet.code == 0);
+  CHECK(quiet.out == "there\n");
+  CHECK(quiet.err.empty());
+}
+
+TEST_CASE("a run that is asked to stop ends after its step", "[commands]") {
+  const Workplace place;
+  place.write("drop.toml", scene);
+  const std::string program = "'" SPINDRIFT_BINARY_DIR "/spindrift' run drop.toml -o long --until 1000000";
+  const std::string line = "cd '" + place.folder().string() + "' && { " + program +
+                           " >out 2>err & p=$!; until [ -s err ]; do sleep 0.05; done; kill -INT $p; wait $p; }";
+  const int status = std::system(("timeout 60 bash -c \"" + line + "\"").c_str());
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 75);
+  CHECK(place.run("info long --json").out.find("\"status\": \"stopped\"") != std::string::npos);
+}

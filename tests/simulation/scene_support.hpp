@@ -1,0 +1,49 @@
+#pragma once
+/// Scenes for tests: one with every section, comparison by the registry, and the text of a refusal.
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "simulation/registry.hpp"
+#include "simulation/scene_reader.hpp"
+
+namespace spindrift {
+
+/// Every section, at the defaults of `preset`, in a domain of 100 m; all that the reader would fill in is filled in.
+inline Scene scene_with_everything(int dim, std::string_view preset = "physical") {
+  Scene scene = complete_scene(preset);
+  const auto n = static_cast<std::size_t>(dim);
+  scene.scene.dim = dim;
+  scene.scene.name = "everything";
+  scene.domain.lower.assign(n, -100);
+  scene.domain.upper.assign(n, 100);
+  scene.domain.gravity.assign(n, 0);
+  scene.domain.gravity.back() = -9.81;
+  scene.release->velocity.assign(n, 0);
+  return scene;
+}
+
+/// The same sections, and the same bits in every value.
+inline bool same(Scene a, Scene b) {
+  for (const Section& section : sections())
+    if (section.exists(a) != section.exists(b)) return false;
+  for (const Key& key : keys()) {
+    if (!find_section(key.section())->exists(a)) continue;
+    const Slot slot_a = key.field(a), slot_b = key.field(b);
+    if (!std::visit([&](auto* value) { return *value == *std::get<decltype(value)>(slot_b); }, slot_a)) return false;
+  }
+  return true;
+}
+
+/// What the reader says against a text; empty if it takes it.
+inline std::string refusal(std::string_view text, const std::vector<std::string>& settings = {}) {
+  try {
+    parse_scene(text, "a.toml", settings);
+  } catch (const Error& error) {
+    return error.code() == ExitCode::bad_input ? error.what() : "wrong exit code";
+  }
+  return "";
+}
+
+}  // namespace spindrift

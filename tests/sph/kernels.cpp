@@ -1,0 +1,67 @@
+#include "sph/kernels.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace spindrift;
+
+// Case A1 of the validation catalogue.
+TEMPLATE_TEST_CASE_SIG("the kernel integrates to one and its gradient to zero", "[kernels]", ((int Dim), Dim), 2, 3) {
+  const double h = 0.21;
+  const CubicSpline<Dim> kernel(h);
+  const int n = Dim == 2 ? 400 : 120;
+  Index<Dim> shape;
+  shape.fill(n);
+  const double step = 2 * h / n;
+  double sum = 0;
+  Vec<Dim> gradient = Vec<Dim>::Zero();
+  for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
+    Vec<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = (i[k] + 0.5) * step - h;
+    const double w = kernel.value(x.norm());
+    CHECK_FALSE(w < 0);
+    sum += w * std::pow(step, Dim);
+    gradient += kernel.gradient(x) * std::pow(step, Dim);
+  });
+  CHECK(sum == Approx(1).margin(1e-5));
+  CHECK(gradient.norm() * h < 1e-10);
+}
+
+TEMPLATE_TEST_CASE_SIG("the kernel's gradient is the derivative of its value", "[kernels]", ((int Dim), Dim), 2, 3) {
+  const double h = 0.5;
+  const CubicSpline<Dim> kernel(h);
+  const double r = GENERATE(0.01, 0.1, 0.2499, 0.2501, 0.4, 0.499, 0.51);
+  const double e = 1e-6;
+  const double slope = (kernel.value(r + e) - kernel.value(r - e)) / (2 * e);
+  CHECK(kernel.gradient(r * Vec<Dim>::Unit(0))[0] == Approx(slope).margin(1e-6 * kernel.sigma / h));
+}
+
+TEST_CASE("the kernel at its centre, half-way and at its rim", "[kernels]") {
+  const CubicSpline<2> kernel(1.0);
+  CHECK(kernel.value(0) == Approx(40 / (7 * M_PI)));
+  CHECK(kernel.value(0.5) == Approx(0.25 * kernel.sigma));
+  CHECK(kernel.value(1) == 0);
+  CHECK(kernel.value(7) == 0);
+  CHECK(kernel.slope_over_r(1) == 0);
+  CHECK(std::isfinite(kernel.slope_over_r(0)));
+}
+
+TEMPLATE_TEST_CASE_SIG("the volume sum of a full lattice is one", "[kernels]", ((int Dim), Dim), 2, 3) {
+  const CubicSpline<Dim> kernel(2.0);
+  Index<Dim> shape;
+  shape.fill(5);
+  double sum = 0;
+  for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
+    Vec<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = i[k] - 2;
+    sum += kernel.value(x.norm());
+  });
+  CHECK(sum == Approx(1).margin(Dim == 2 ? 1e-3 : 1e-2));
+  if (Dim == 2) CHECK(sum == Approx(1.0008).margin(1e-4));
+}
+
+TEST_CASE("the number-density kernel has its floor at 0.05 h", "[kernels]") {
+  CHECK(number_density_kernel(0.5, 1) == Approx(1));
+  CHECK(number_density_kernel(0.05, 1) == Approx(19));
+  CHECK(number_density_kernel(0, 1) == Approx(19));
+  CHECK(number_density_kernel(1, 1) == 0);
+}
