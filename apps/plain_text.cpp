@@ -11,7 +11,7 @@ std::string count_text(double n) {
   if (!(std::abs(n) < 1e15)) return fmt::format("{:.3g}", n);
   std::string text = fmt::format("{:.0f}", n);
   const std::size_t first = text[0] == '-' ? 1 : 0;
-  for (std::size_t at = text.size(); at > first + 3;) text.insert(at -= 3, ",");
+  for (std::size_t at = text.size(); at > first + 3;) text.insert(at -= 3, 1, ',');
   return text;
 }
 

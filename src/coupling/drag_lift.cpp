@@ -71,7 +71,6 @@ void exchange_drag(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
   gamma.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t i = region.particles[k];
-    region.slip[k] = (region.velocity[k] - region.air_velocity(k)).norm();
     region.stiffness[k] = drag_stiffness(drag, dt, radius, air_density, particles.volume[i], particles.mass[i]);
     const double beta = drag_rate(region.stiffness[k], region.loading[k], region.slip[k], gravity_predicted);
     gamma[k] = beta / (1 + beta);

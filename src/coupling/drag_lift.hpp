@@ -34,7 +34,7 @@ Vec<Dim> damped_rotation(const Vec<Dim>& w, const Curl<Dim>& theta);
 /// Drag, Eq. (10):  f_i = -k_drag (m_i / r_i) |v_i - u_i| (v_i - u_i), by the two-way implicit exchange
 ///   u_f' = (m_f u_f + sum_p c_pf gamma_p v_p) / (m_f + sum_p c_pf gamma_p),  c_pf = w_pf m_p,  gamma = beta / (1 + beta)
 ///   v_p' = v_p - gamma_p sum_f w_pf (v_p - u_f')
-/// Changes the velocities in `region`, fills its slip, stiffness and loading, and books both sides in `exchange`.
+/// Changes the velocities in `region`, fills its stiffness and loading, and books both sides in `exchange`.
 template <int Dim>
 void exchange_drag(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Particles<Dim>& particles,
                    const ForceOptions& drag, double radius, double air_density, double dt, bool gravity_predicted);

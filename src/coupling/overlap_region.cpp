@@ -38,7 +38,7 @@ void find_region(OverlapRegion<Dim>& region, const Particles<Dim>& particles, st
 
   const std::size_t n = region.size();
   region.velocity.resize(n);
-  region.slip.assign(n, 0.0);
+  region.slip.resize(n);
   region.stiffness.assign(n, 0.0);
   region.loading.assign(n, 0.0);
   region.swept.assign(n, 0.0);
@@ -67,6 +67,7 @@ void find_region(OverlapRegion<Dim>& region, const Particles<Dim>& particles, st
     }
     region.start_velocity[axis] = region.face_velocity[axis];
   }
+  for (std::size_t k = 0; k < n; ++k) region.slip[k] = (region.velocity[k] - region.air_velocity(k)).norm();
 }
 
 template <int Dim>

@@ -52,8 +52,10 @@ template <int Dim> class Entrainment {
   /// a particle goes once the integral of lambda dt passes its own unit-exponential number, a function of seed and id.
   /// Within the step lambda rises as candidates go, so that the flux is Er as long as the step leaves a candidate: low
   /// by at most Er A dt / 2 m. (Without the topmost, bins whose pit the neighbours' cover overhangs stand still, and
-  /// the flux is 0.86 Er.) By the Bernoulli rule each goes with probability P_e = Er S dt / m, Eq. (16); S = 2 r or pi
-  /// r^2. cover     inout: slots become dead, hazards grow; slots may be renumbered (compact_cover) dense     in
+  /// the flux is 0.86 Er.)
+  /// By the Bernoulli rule each goes with probability P_e = Er S dt / m, Eq. (16); S = 2 r or pi r^2.
+  /// cover     inout: slots become dead, hazards grow; slots may be renumbered (compact_cover)
+  /// dense     in
   /// columns   in: of these particles in this order; positions up to a step old will do
   /// friction  in: law of the traction tau_f; mu = xi = 0: none
   /// gravity   g [m s^-2]

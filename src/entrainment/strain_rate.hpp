@@ -21,8 +21,9 @@ struct FailureThreshold {
   double surface = 1e-6, base = 1e-4;
 };
 
-/// gamma_0 [s^-1]:  surface (base / surface)^(depth / thickness), log-linear from the cover's initial surface to its
-/// base. depth  below the initial surface, thickness  of the cover at the start [m]; depth is held to [0, thickness].
+/// gamma_0 [s^-1]:  surface (base / surface)^(depth / thickness), log-linear over the cover's initial depth.
+/// depth      below the initial surface [m], held to [0, thickness]
+/// thickness  of the cover at the start [m]
 /// Departure: R13.
 double failure_strain_rate(const FailureThreshold& threshold, double depth, double thickness);
 

@@ -12,32 +12,28 @@ namespace spindrift {
 enum class AdvectionScheme { semi_lagrangian, maccormack };
 
 /// Largest |u_k| in each row of the faces of each axis [m/s].
-template <int Dim>
-using RowSpeeds = std::array<std::vector<double>, Dim>;
+template <int Dim> using RowSpeeds = std::array<std::vector<double>, Dim>;
 
 /// Where one call of advect() takes place.
-template <int Dim>
-struct AdvectionFrame {
+template <int Dim> struct AdvectionFrame {
   const MacGrid<Dim>& grid;
-  const Ground<Dim>& ground;            ///< only faces in its rows are looked at
-  const FaceField<Dim>& carrier;        ///< velocity that carries [m/s], with sane values in the ground's layers
+  const Ground<Dim>& ground;      ///< only faces in its rows are looked at
+  const FaceField<Dim>& carrier;  ///< velocity that carries [m/s], with sane values in the ground's layers
   const RowSpeeds<Dim>& carrier_speed;
-  const FaceField<Dim>& flow_area;      ///< only faces with a positive one are advected, the others keep their value
+  const FaceField<Dim>& flow_area;  ///< only faces with a positive one are advected, the others keep their value
 };
 
-template <int Dim>
-class VelocityAdvection {
+template <int Dim> class VelocityAdvection {
  public:
   explicit VelocityAdvection(const MacGrid<Dim>& grid);
 
   /// u(x) <- u(x - D(x)), the displacement D by the midpoint rule through the carrier:
   ///   D = dt c(x - dt/2 c(x))
-  /// MacCormack: u^ = u(x - D), back = u^(x + D'), D' the displacement forward; u <- u^ + (u - back) / 2, clamped to the
-  /// values that made u^. Interpolation is (bi/tri)linear, constant beyond the domain; stable for any dt.
-  /// Rows where nothing moves more than a cell (|c| dt <= dx, also in the rows next to them) read their neighbours in
-  /// order, with weights instead of look-ups: the same interpolation, ten times faster.
-  /// u  in-out: [m/s], on return in the rows of frame.ground.   dt  [s]
-  /// Source: paper Sec. 4.2 (stable fluids).
+  /// MacCormack: u^ = u(x - D), back = u^(x + D'), D' the displacement forward; u <- u^ + (u - back) / 2, clamped to
+  /// the values that made u^ (those with a weight). Interpolation is (bi/tri)linear, constant beyond the domain; stable
+  /// for any dt. Rows where nothing moves more than a cell (|c| dt <= dx, also in the rows next to them) read their
+  /// neighbours in order, with weights instead of look-ups: the same interpolation, several times faster. u  in-out:
+  /// [m/s], on return in the rows of frame.ground.   dt  [s] Source: paper Sec. 4.2 (stable fluids).
   void advect(FaceField<Dim>& u, const AdvectionFrame<Dim>& frame, double dt, AdvectionScheme scheme);
 
   /// Forgets what lies deep in the ground, see Ground::clear_deep.
@@ -47,7 +43,8 @@ class VelocityAdvection {
 
  private:
   enum class Pass { forward, correct };
-  void sweep(FaceField<Dim>& out, const FaceField<Dim>& u, const AdvectionFrame<Dim>& frame, double dt, Pass pass) const;
+  void sweep(FaceField<Dim>& out, const FaceField<Dim>& u, const AdvectionFrame<Dim>& frame, double dt,
+             Pass pass) const;
 
   FaceField<Dim> forward_, result_;
 };

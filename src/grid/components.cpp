@@ -136,8 +136,8 @@ std::size_t mark_pockets(Field<Dim, CellKind>& kind, const FaceField<Dim>& open,
   const bool closed_domain =
       std::none_of(all.begin(), all.end(), [](const auto& component) { return component.reaches_open_side; });
   if (closed_domain && !all.empty()) {
-    const auto largest = std::max_element(all.begin(), all.end(),
-                                          [](const auto& a, const auto& b) { return a.n_cells < b.n_cells; });
+    const auto largest =
+        std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.n_cells < b.n_cells; });
     shut_in[static_cast<std::size_t>(largest - all.begin())] = 0;
   }
   std::size_t n_marked = 0;

@@ -30,6 +30,7 @@ class Components {
 
   /// In the order of their first cells.
   const std::vector<Component>& all() const { return all_; }
+  std::vector<Component>& all() { return all_; }
 
   /// Calls f(first cell of the row, run) for every run, in memory order.
   template <class F>

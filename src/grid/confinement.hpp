@@ -8,8 +8,7 @@
 namespace spindrift {
 
 /// Holds memory only once it has been used.
-template <int Dim>
-class Confinement {
+template <int Dim> class Confinement {
  public:
   /// du = dt strength dx (N x omega),   N = grad |omega| / |grad |omega||
   /// with omega and N at cell centres (central differences), on the faces with a flow area whose two cells have open
@@ -22,8 +21,8 @@ class Confinement {
  private:
   std::array<Field<Dim>, Dim> centre_;  ///< velocity at cell centres, then the force
   std::array<Field<Dim>, n_curl<Dim>> curl_;
-  Field<Dim> size_;                     ///< |omega|
-  Field<Dim> inner_;                    ///< 1: all faces of the cell have a flow area
+  Field<Dim> size_;   ///< |omega|
+  Field<Dim> inner_;  ///< 1: all faces of the cell have a flow area
 };
 
 }  // namespace spindrift

@@ -6,16 +6,16 @@
 namespace spindrift {
 namespace {
 
-/// The arrays of a line of points: w x' = w x + link_next (x_next' - x') - link_last (x' - x_last'), x' = x where fixed.
+/// The arrays of a line of points: w x' = w x + link_next (x_next' - x') - link_last (x' - x_last'), x' = x where
+/// fixed.
 struct Lines {
   double *x, *ratio;
   const double *weight, *fixed, *link;
 };
 
-/// Gaussian elimination along one line (or a pack of lines side by side) of n points, `stride` apart. The sum of w x over
-/// lines without fixed points is kept: round-off of the elimination must not add up over thousands of steps.
-template <class T>
-void solve_line(const Lines& lines, std::ptrdiff_t stride, int n) {
+/// Gaussian elimination along one line (or a pack of lines side by side) of n points, `stride` apart. The sum of w x
+/// over lines without fixed points is kept: round-off of the elimination must not add up over thousands of steps.
+template <class T> void solve_line(const Lines& lines, std::ptrdiff_t stride, int n) {
   T link_last{}, x_last{}, ratio_last{}, sum{}, n_fixed{};
   for (int i = 0; i < n; ++i) {
     const std::ptrdiff_t at = i * stride;
@@ -44,18 +44,14 @@ void solve_line(const Lines& lines, std::ptrdiff_t stride, int n) {
 
 }  // namespace
 
-template <int Dim>
-void Diffusion<Dim>::resize(std::size_t n) {
+template <int Dim> void Diffusion<Dim>::resize(std::size_t n) {
   for (auto* array : {&x_, &weight_, &link_, &ratio_, &fixed_}) array->resize(n);
 }
 
-template <int Dim>
-void Diffusion<Dim>::solve_lines(std::vector<double>& x, const Index<Dim>& shape, int axis) {
+template <int Dim> void Diffusion<Dim>::solve_lines(std::vector<double>& x, const Index<Dim>& shape, int axis) {
   std::ptrdiff_t stride = 1;
   for (int k = 0; k < axis; ++k) stride *= shape[k];
-  const auto lines_at = [&](std::size_t n) {
-    return Lines{&x[n], &ratio_[n], &weight_[n], &fixed_[n], &link_[n]};
-  };
+  const auto lines_at = [&](std::size_t n) { return Lines{&x[n], &ratio_[n], &weight_[n], &fixed_[n], &link_[n]}; };
   Index<Dim> starts = shape;
   starts[axis] = 1;
   if (axis == 0) {

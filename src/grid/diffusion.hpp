@@ -8,8 +8,7 @@
 namespace spindrift {
 
 /// Holds memory only once it has been used.
-template <int Dim>
-class Diffusion {
+template <int Dim> class Diffusion {
  public:
   /// m_f u' - nu dt div(m grad u') = m_f u for each component, m the mass of the faces: momentum only moves. Free slip:
   /// nothing passes to closed faces and through sides. Faces with flow_area 0 keep their velocity, and others feel it.
@@ -17,8 +16,8 @@ class Diffusion {
   void diffuse_velocity(FaceField<Dim>& u, const Field<Dim>& smoke, const FaceField<Dim>& flow_area,
                         const MacGrid<Dim>& grid, const Ground<Dim>& ground, double viscosity, double dt);
 
-  /// V rho' - kappa dt div(A grad rho') = m,  m' = V rho'. Nothing passes through sides. Mass is kept to round-off along
-  /// every line of cells.   smoke  in-out: [kg];   diffusivity  [m^2/s]
+  /// V rho' - kappa dt div(A grad rho') = m,  m' = V rho'. Nothing passes through sides. Mass is kept to round-off
+  /// along every line of cells.   smoke  in-out: [kg];   diffusivity  [m^2/s]
   void diffuse_smoke(Field<Dim>& smoke, const FaceField<Dim>& flow_area, const MacGrid<Dim>& grid,
                      const Ground<Dim>& ground, double diffusivity, double dt);
 
@@ -29,9 +28,9 @@ class Diffusion {
   void solve_lines(std::vector<double>& x, const Index<Dim>& shape, int axis);
 
   std::vector<double> x_, weight_;
-  std::vector<double> link_;    ///< to the next point along the axis, 0 at the end
-  std::vector<double> ratio_;   ///< of the elimination
-  std::vector<double> fixed_;   ///< 1: x stays
+  std::vector<double> link_;   ///< to the next point along the axis, 0 at the end
+  std::vector<double> ratio_;  ///< of the elimination
+  std::vector<double> fixed_;  ///< 1: x stays
 };
 
 }  // namespace spindrift

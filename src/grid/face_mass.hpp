@@ -7,9 +7,9 @@
 
 namespace spindrift {
 
-/// sum of face mass times value<T>(face, low, high), in a fixed order, over the open faces. face, low, high: flat numbers
-/// of the (first) face and of the cells on its sides, at a side of the domain twice the one that exists. T = Pack or
-/// double. value is also called for closed faces; it may change the face's velocity.
+/// sum of face mass times value<T>(face, low, high), in a fixed order, over the open faces. face, low, high: flat
+/// numbers of the (first) face and of the cells on its sides, at a side of the domain twice the one that exists. T =
+/// Pack or double. value is also called for closed faces; it may change the face's velocity.
 template <int Dim, class F>
 double sum_over_faces(int axis, const Ground<Dim>& ground, const Field<Dim>& smoke, F&& value) {
   const Field<Dim>& air = ground.air_mass()[axis];
@@ -40,7 +40,8 @@ double sum_over_faces(int axis, const Ground<Dim>& ground, const Field<Dim>& smo
       if (span.end == n + 1 && inner.end > inner.begin) sum += edge(--inner.end);
     }
     return sum + sum_packs(inner.begin, inner.end, [&]<class T>(int i) -> T {
-             const std::size_t face = first + static_cast<std::size_t>(i), high = first_cell + static_cast<std::size_t>(i);
+             const std::size_t face = first + static_cast<std::size_t>(i),
+                               high = first_cell + static_cast<std::size_t>(i);
              const T a = load<T>(&air[face]);
              const T x = value.template operator()<T>(face, high - below, high);
              return a > 0 ? (a + 0.5 * (load<T>(mass + high) + load<T>(mass + high - below))) * x : T{};

@@ -12,8 +12,7 @@
 
 namespace spindrift {
 
-template <int Dim, class T = double>
-class Field {
+template <int Dim, class T = double> class Field {
  public:
   Field() = default;
   explicit Field(const Index<Dim>& shape, T value = T{}) : shape_(shape), data_(count<Dim>(shape), value) {}
@@ -57,9 +56,7 @@ class Field {
   std::span<const T> values() const { return data_; }
 
   /// Rows a task of a parallel loop takes: about 4096 points.
-  std::size_t rows_per_task() const {
-    return static_cast<std::size_t>(std::max(1, 4096 / std::max(1, shape_[0])));
-  }
+  std::size_t rows_per_task() const { return static_cast<std::size_t>(std::max(1, 4096 / std::max(1, shape_[0]))); }
 
   void fill(T value) { data_.assign(data_.size(), value); }
   void swap(Field& other) {

@@ -16,8 +16,7 @@ struct Span {
   bool empty() const { return end <= begin; }
 };
 
-template <int Dim>
-class Ground {
+template <int Dim> class Ground {
  public:
   /// Everything open.
   Ground(const MacGrid<Dim>& grid, double air_density);
@@ -61,14 +60,14 @@ class Ground {
   Field<Dim> volume_;
   FaceField<Dim> air_mass_;
   FaceField<Dim, std::uint8_t> layer_;  ///< 0: open face, 1..n_layers, deep
+  Field<Dim, std::uint8_t> small_;      ///< 1: open and small
   std::array<std::array<std::vector<std::uint32_t>, n_layers>, Dim> faces_of_layer_;
   std::array<std::vector<Span>, Dim> rows_;
   std::vector<std::uint32_t> small_cells_;
 };
 
 /// Face mass [kg] of one face from its row data. axis: of the face; smoke of the cells on both sides, where they exist.
-template <int Dim>
-double smoke_of_face(const Field<Dim>& smoke, int axis, const Index<Dim>& face) {
+template <int Dim> double smoke_of_face(const Field<Dim>& smoke, int axis, const Index<Dim>& face) {
   double mass = 0;
   if (face[axis] < smoke.shape()[axis]) mass += smoke[face];
   if (face[axis] > 0) mass += smoke[shifted<Dim>(face, axis, -1)];

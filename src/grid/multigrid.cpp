@@ -1,5 +1,6 @@
-#include <cstdlib>
 #include "grid/multigrid.hpp"
+
+#include <algorithm>
 
 namespace spindrift {
 
@@ -14,35 +15,6 @@ template <int Dim>
 Index<Dim> halved(Index<Dim> cells) {
   for (int& n : cells) n = (n + 1) / 2;
   return cells;
-}
-
-/// The rows of cells that a coarse row covers: f(fine first cell).
-template <int Dim, class F>
-void for_each_fine_row(const Index<Dim>& coarse, const Index<Dim>& fine_cells, F&& f) {
-  for (int corner = 0; corner < 1 << (Dim - 1); ++corner) {
-    Index<Dim> i{};
-    bool exists = true;
-    for (int k = 1; k < Dim; ++k) {
-      i[k] = 2 * coarse[k] + ((corner >> (k - 1)) & 1);
-      exists = exists && i[k] < fine_cells[k];
-    }
-    if (exists) f(i);
-  }
-}
-
-/// The rows of faces that a coarse row of faces normal to `axis` covers.
-template <int Dim, class F>
-void for_each_fine_face_row(const Index<Dim>& coarse, int axis, const Index<Dim>& fine_cells, F&& f) {
-  Index<Dim> layer = fine_cells;
-  Index<Dim> in_layer = coarse;
-  if (axis > 0) {
-    layer[axis] = 1;
-    in_layer[axis] = 0;
-  }
-  for_each_fine_row<Dim>(in_layer, layer, [&](Index<Dim> row) {
-    if (axis > 0) row[axis] = std::min(2 * coarse[axis], fine_cells[axis]);
-    f(row);
-  });
 }
 
 /// own half column m of one parity of a row, and where its neighbours and faces are.
@@ -152,6 +124,20 @@ void restrict_residual(MultigridLevel<Dim>& coarse, MultigridLevel<Dim>& fine) {
   });
 }
 
+/// What yields swallow of the residual: restrict_residual knows the conductances alone.
+template <int Dim>
+void restrict_yields(MultigridLevel<Dim>& coarse, const MultigridLevel<Dim>& fine) {
+  for (const YieldTerm<Dim>& term : fine.yields) {
+    int colour = 0;
+    for (const int k : term.cell) colour ^= k & 1;
+    if (colour != red) continue;
+    Index<Dim> block = term.cell;
+    for (int& k : block) k /= 2;
+    coarse.right_side[static_cast<std::size_t>(coarse.layout.at(block))] -=
+        static_cast<float>(term.value) * fine.solution[static_cast<std::size_t>(term.place)];
+  }
+}
+
 /// Adds the coarse solution to the red cells of its block; the black half sweep that follows reads no black ones.
 template <int Dim>
 void add_correction(MultigridLevel<Dim>& fine, const MultigridLevel<Dim>& coarse) {
@@ -175,79 +161,7 @@ void add_correction(MultigridLevel<Dim>& fine, const MultigridLevel<Dim>& coarse
   });
 }
 
-/// Sets the reciprocal diagonal from the conductances.
-template <int Dim>
-void set_diagonal(MultigridLevel<Dim>& level) {
-  const ParityLayout<Dim>& layout = level.layout;
-  layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
-    for (int parity = 0; parity < 2; ++parity) {
-      const RowSpan span = layout.in_parity(level.spans[number], parity);
-      const std::ptrdiff_t own = layout.own(start, parity), right = layout.left(start, parity) + 1;
-      const float* cl = level.conductance[0].data() + own;
-      const float* cr = level.conductance[0].data() + right;
-      float* d = level.inverse_diagonal.data() + own;
-      for (int m = span.begin; m < span.end; ++m) {
-        float sum = cl[m] + cr[m];
-        for (int k = 1; k < Dim; ++k) {
-          const float* c = level.conductance[k].data() + own;
-          sum += c[m] + c[m + layout.stride[k]];
-        }
-        d[m] = sum > 0 ? 1 / sum : 0;
-      }
-    }
-  });
-}
-
-/// Half the sum of the fine conductances that make up each coarse face. An odd number of fine cells leaves the last
-/// block half outside: its upper faces are those of its only layer, at the layer's own distance.
-template <int Dim>
-void coarsen(MultigridLevel<Dim>& coarse, const MultigridLevel<Dim>& fine) {
-  const Index<Dim>& cells = fine.layout.cells;
-  coarse.layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
-    RowSpan span;
-    for_each_fine_row<Dim>(start, cells, [&](const Index<Dim>& row) {
-      const RowSpan s = fine.spans[fine.layout.row_number(row)];
-      if (!s.empty()) span = united(span, {s.begin / 2, (s.end + 1) / 2});
-    });
-    coarse.spans[number] = span;
-  });
-  for (int axis = 0; axis < Dim; ++axis) {
-    const int half = fine.layout.half();
-    const float upper_factor = cells[axis] % 2 == 0 ? 0.5f : 1.0f;
-    face_rows<Dim>(coarse.layout.cells, axis).for_each_row([&](std::size_t, const Index<Dim>& start) {
-      float* even = coarse.conductance[axis].data() + coarse.layout.row(start);
-      float* odd = even + coarse.layout.pitch;
-      std::fill(even, even + 2 * coarse.layout.pitch, 0.0f);
-      const float factor = axis > 0 && start[axis] == coarse.layout.cells[axis] ? upper_factor : 0.5f;
-      float upper = 0;
-      for_each_fine_face_row<Dim>(start, axis, cells, [&](const Index<Dim>& row) {
-        const float* c_even = fine.conductance[axis].data() + fine.layout.row(row);
-        const float* c_odd = c_even + fine.layout.pitch;
-        // Along a row, a face is one of the fine faces; across, it has both columns.
-        const auto fine_sum = [&](int i) { return axis == 0 ? c_even[i] : c_even[i] + c_odd[i]; };
-        for (int m = 0; m < (half + 1) / 2; ++m) {
-          even[m] += factor * fine_sum(2 * m);
-          odd[m] += factor * fine_sum(2 * m + 1);
-        }
-        upper += upper_factor * (cells[0] % 2 == 0 ? c_even[half] : c_odd[half - 1]);
-      });
-      if (axis == 0) (half % 2 == 0 ? even : odd)[half / 2] = upper;
-    });
-  }
-  set_diagonal(coarse);
-}
-
 }  // namespace
-
-template <int Dim>
-MultigridLevel<Dim>::MultigridLevel(const Index<Dim>& cells)
-    : layout(cells),
-      inverse_diagonal(layout.size, 0.0f),
-      solution(layout.size, 0.0f),
-      right_side(layout.size, 0.0f),
-      spans(layout.n_rows) {
-  for (auto& c : conductance) c.assign(layout.size, 0.0f);
-}
 
 template <int Dim>
 Multigrid<Dim>::Multigrid(Index<Dim> cells) {
@@ -263,10 +177,12 @@ template <int Dim>
 void Multigrid<Dim>::build(const PoissonOperator<Dim>& poisson) {
   MultigridLevel<Dim>& finest = levels_.front();
   std::copy(poisson.spans.begin(), poisson.spans.end(), finest.spans.begin());
+  finest.yields.assign(poisson.yields.begin(), poisson.yields.end());
   for (int axis = 0; axis < Dim; ++axis) {
     float* c = finest.conductance[axis].data();
     const double* exact = poisson.conductance[axis].data();
-    parallel_for(finest.layout.size, [=](std::size_t n) { c[n] = static_cast<float>(exact[n]); }, 8192);
+    parallel_for(
+        finest.layout.size, [=](std::size_t n) { c[n] = static_cast<float>(exact[n]); }, 8192);
   }
   set_diagonal(finest);
   for (std::size_t depth = 1; depth < levels_.size(); ++depth) coarsen(levels_[depth], levels_[depth - 1]);
@@ -284,6 +200,7 @@ void Multigrid<Dim>::cycle(std::size_t depth) {
   for (int sweep = 1; sweep < sweeps; ++sweep) pass(level.layout, relax_red, relax_black);
   if (!coarsest) {
     restrict_residual(levels_[depth + 1], level);
+    restrict_yields(levels_[depth + 1], level);
     cycle(depth + 1);
     add_correction(level, levels_[depth + 1]);
   }

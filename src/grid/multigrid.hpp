@@ -3,22 +3,10 @@
 
 #include <vector>
 
-#include "grid/parity_layout.hpp"
+#include "grid/multigrid_level.hpp"
 #include "grid/poisson_operator.hpp"
 
 namespace spindrift {
-
-/// One grid of the hierarchy. Vectors in the parity layout of its cells.
-template <int Dim>
-struct MultigridLevel {
-  ParityLayout<Dim> layout;
-  std::array<std::vector<float>, Dim> conductance;  ///< of the lower faces
-  std::vector<float> inverse_diagonal;              ///< 0: the cell takes no part
-  std::vector<float> solution, right_side;
-  std::vector<RowSpan> spans;
-
-  explicit MultigridLevel(const Index<Dim>& cells);
-};
 
 /// z = M r with M close to the inverse of the Poisson operator, symmetric and positive: red-black Gauss-Seidel sweeps
 /// before, the same in reverse order after the correction from the grid of blocks of 2^Dim cells. There a face conducts

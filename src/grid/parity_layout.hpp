@@ -31,10 +31,10 @@ inline RowSpan common(const RowSpan& a, const RowSpan& b) {
 template <int Dim>
 struct ParityLayout {
   Index<Dim> cells{};
-  std::ptrdiff_t pitch = 0;                    ///< half columns of one parity, with padding
-  std::array<std::ptrdiff_t, Dim> stride{};    ///< to the next row along each axis but the first
+  std::ptrdiff_t pitch = 0;                  ///< half columns of one parity, with padding
+  std::array<std::ptrdiff_t, Dim> stride{};  ///< to the next row along each axis but the first
   std::size_t size = 0, n_rows = 0;
-  std::size_t rows_a_block = 1;                ///< of parallel loops: fixed, so that sums do not depend on the threads
+  std::size_t rows_a_block = 1;  ///< of parallel loops: fixed, so that sums do not depend on the threads
 
   ParityLayout() = default;
   explicit ParityLayout(const Index<Dim>& cells_) : cells(cells_) {
@@ -82,7 +82,8 @@ struct ParityLayout {
   }
   std::size_t row_number(const Index<Dim>& i) const {
     std::size_t number = 0;
-    for (int k = Dim - 1; k >= 1; --k) number = number * static_cast<std::size_t>(cells[k]) + static_cast<std::size_t>(i[k]);
+    for (int k = Dim - 1; k >= 1; --k)
+      number = number * static_cast<std::size_t>(cells[k]) + static_cast<std::size_t>(i[k]);
     return number;
   }
   /// Whether the even cells of a row are black: colour = sum of the indices mod 2.
@@ -95,7 +96,8 @@ struct ParityLayout {
   /// f(row number, its first cell), in parallel.
   template <class F>
   void for_each_row(F&& f) const {
-    parallel_for(n_rows, [&](std::size_t number) { f(number, row_start(number)); }, rows_a_block);
+    parallel_for(
+        n_rows, [&](std::size_t number) { f(number, row_start(number)); }, rows_a_block);
   }
   /// The sum of f(row number, its first cell), in fixed order.
   template <class F>

@@ -1,5 +1,6 @@
 #include "grid/poisson_operator.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace spindrift {
@@ -42,7 +43,9 @@ PoissonOperator<Dim>::PoissonOperator(const Index<Dim>& cells, const std::array<
 
 template <int Dim>
 void PoissonOperator<Dim>::build(const Field<Dim>& density, const FaceField<Dim>& open,
-                                 const Field<Dim, CellKind>& kind) {
+                                 const Field<Dim, CellKind>& kind, std::span<const HeavyCell<Dim>> heavy,
+                                 double cell_volume) {
+  find_yields(open, kind, heavy, cell_volume);
   const int n = layout.cells[0];
   layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
     const auto kinds = kind.row(start);
@@ -90,6 +93,19 @@ void PoissonOperator<Dim>::build(const Field<Dim>& density, const FaceField<Dim>
 }
 
 template <int Dim>
+void PoissonOperator<Dim>::find_yields(const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
+                                       std::span<const HeavyCell<Dim>> heavy, double cell_volume) {
+  yields.clear();
+  for (const HeavyCell<Dim>& core : heavy) {
+    for_each_open_neighbour<Dim>(core.cell, open, kind, [&](int axis, const Index<Dim>& face, const Index<Dim>& cell, int) {
+      const double fraction = open[axis][face];
+      yields.push_back({cell, layout.at(cell), fraction * fraction * cell_volume / core.mass});
+    });
+  }
+  merge_yields(yields);
+}
+
+template <int Dim>
 RowSpan PoissonOperator<Dim>::face_span(int axis, const Index<Dim>& start) const {
   if (axis == 0) {
     const RowSpan span = spans[layout.row_number(start)];
@@ -101,7 +117,7 @@ RowSpan PoissonOperator<Dim>::face_span(int axis, const Index<Dim>& start) const
 
 template <int Dim>
 double PoissonOperator<Dim>::apply(std::vector<double>& y, const std::vector<double>& x) const {
-  return layout.sum_over_rows([&](std::size_t number, const Index<Dim>& start) {
+  const double product = layout.sum_over_rows([&](std::size_t number, const Index<Dim>& start) {
     double sum = 0;
     for (int parity = 0; parity < 2; ++parity) {
       const RowSpan span = layout.in_parity(spans[number], parity);
@@ -125,15 +141,39 @@ double PoissonOperator<Dim>::apply(std::vector<double>& y, const std::vector<dou
     }
     return sum;
   });
+  double yielded = 0;
+  for (const YieldTerm<Dim>& term : yields) {
+    const auto n = static_cast<std::size_t>(term.place);
+    y[n] += term.value * x[n];
+    yielded += term.value * x[n] * x[n];
+  }
+  return product + yielded;
 }
 
 template <int Dim>
 std::size_t PoissonOperator<Dim>::bytes() const {
-  std::size_t sum = spindrift::bytes(spans, resistance_);
+  std::size_t sum = spindrift::bytes(spans, resistance_) + spindrift::bytes(yields);
   for (const auto& c : conductance) sum += spindrift::bytes(c);
   return sum;
 }
 
+template <int Dim>
+void merge_yields(std::vector<YieldTerm<Dim>>& yields) {
+  std::sort(yields.begin(), yields.end(),
+            [](const YieldTerm<Dim>& a, const YieldTerm<Dim>& b) { return a.place < b.place; });
+  std::size_t n = 0;
+  for (const YieldTerm<Dim>& term : yields) {
+    if (n > 0 && yields[n - 1].place == term.place) {
+      yields[n - 1].value += term.value;
+    } else {
+      yields[n++] = term;
+    }
+  }
+  yields.resize(n);
+}
+
+template void merge_yields<2>(std::vector<YieldTerm<2>>&);
+template void merge_yields<3>(std::vector<YieldTerm<3>>&);
 template struct PoissonOperator<2>;
 template struct PoissonOperator<3>;
 

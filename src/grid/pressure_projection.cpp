@@ -9,21 +9,19 @@ namespace spindrift {
 
 template <int Dim>
 PressureProjection<Dim>::PressureProjection(const MacGrid<Dim>& grid, const Sides& sides)
-    : sides_(sides),
-      dx_(grid.dx),
-      pressure_(grid.cells, 0.0),
-      poisson_(grid.cells, sides),
-      solver_(poisson_.layout) {}
+    : sides_(sides), dx_(grid.dx), pressure_(grid.cells, 0.0), poisson_(grid.cells, sides), solver_(poisson_.layout) {}
 
 template <int Dim>
 ProjectionResult PressureProjection<Dim>::project(FaceField<Dim>& u, const Field<Dim>& density,
                                                   const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
-                                                  double dt, const ProjectionOptions& options) {
+                                                  double dt, const ProjectionOptions& options,
+                                                  std::span<const HeavyCell<Dim>> heavy) {
   SPINDRIFT_CHECK(dt > 0);
   SPINDRIFT_CHECK(kind.shape() == pressure_.shape() && density.shape() == pressure_.shape());
   const double to_potential = dt / dx_;
-  poisson_.build(density, open, kind);
+  poisson_.build(density, open, kind, heavy, std::pow(dx_, Dim));
   components_.find(kind, open, sides_);
+  anchor_closed_components();
   set_right_side(u, open, kind);
   ProjectionResult result;
   result.unmatched_flux = subtract_closed_means(solver_.right_side);
@@ -38,7 +36,10 @@ ProjectionResult PressureProjection<Dim>::project(FaceField<Dim>& u, const Field
   }
   subtract_closed_means(solver_.solution);
   set_pressure(kind, 1 / to_potential);
-  if (solved.iterations > 0 || solved.residual > 0) correct(u, open);
+  if (solved.iterations > 0 || solved.residual > 0) {
+    correct(u, open);
+    yield(u, open, kind, heavy);
+  }
   return result;
 }
 
@@ -72,6 +73,22 @@ void PressureProjection<Dim>::set_right_side(const FaceField<Dim>& u, const Face
       odd[m] = inflow(2 * m + 1);
     }
     for (int m = std::max(pairs, span.begin); m < span.end; ++m) even[m] = inflow(2 * m);
+  });
+}
+
+/// A component without an open side whose pressure the core's yielding faces hold is as good as one with an open side.
+template <int Dim>
+void PressureProjection<Dim>::anchor_closed_components() {
+  auto& components = components_.all();
+  if (poisson_.yields.empty()) return;
+  if (std::all_of(components.begin(), components.end(), [](const auto& c) { return c.reaches_open_side; })) return;
+  components_.for_each_run([&](const Index<Dim>& start, const auto& run) {
+    for (const YieldTerm<Dim>& yielding : poisson_.yields) {
+      Index<Dim> row = yielding.cell;
+      row[0] = 0;
+      if (row == start && yielding.cell[0] >= run.begin && yielding.cell[0] < run.end)
+        components[run.component].reaches_open_side = true;
+    }
   });
 }
 
@@ -155,6 +172,19 @@ void PressureProjection<Dim>::correct(FaceField<Dim>& u, const FaceField<Dim>& o
         }
       }
     });
+  }
+}
+
+template <int Dim>
+void PressureProjection<Dim>::yield(FaceField<Dim>& u, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
+                                    std::span<const HeavyCell<Dim>> heavy) const {
+  const double cell_volume = std::pow(dx_, Dim);
+  for (const HeavyCell<Dim>& core : heavy) {
+    for_each_open_neighbour<Dim>(
+        core.cell, open, kind, [&](int axis, const Index<Dim>& face, const Index<Dim>& cell, int sign) {
+          const double phi = solver_.solution[static_cast<std::size_t>(poisson_.layout.at(cell))];
+          u[axis][face] -= sign * phi * open[axis][face] * cell_volume / core.mass;
+        });
   }
 }
 

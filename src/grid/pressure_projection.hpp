@@ -11,7 +11,7 @@
 namespace spindrift {
 
 struct ProjectionOptions {
-  double tolerance = 1e-4;   ///< on the relative residual |r|_2 / |b|_2
+  double tolerance = 1e-4;  ///< on the relative residual |r|_2 / |b|_2
   int max_iterations = 200;
 };
 
@@ -43,11 +43,15 @@ class PressureProjection {
   /// open     in: open area fraction of each face, 0..1
   /// kind     in: of each cell; cells other than open get p = 0
   /// dt       in: [s], > 0
-  /// A component of open cells that reaches no open side gets its right-hand side's mean subtracted (RELIABILITY F8) and
-  /// a pressure of mean zero. No flux to remove: no iteration, u unchanged.
-  /// Source: paper Eqs. (1), (2), Sec. 4.3. Departures: R9, R10.
+  /// A component of open cells that reaches no open side gets its right-hand side's mean subtracted (RELIABILITY F8)
+  /// and a pressure of mean zero. No flux to remove: no iteration, u unchanged. Source: paper Eqs. (1), (2), Sec. 4.3.
+  /// Departures: R9, R10.
+  /// heavy    in: core cells, no cell twice. Their faces towards open cells yield to the pressure with the cell's mass m,
+  ///              u_f += dt p open_f A / m away from the air, so that the impulse p open_f A dt that the core takes and
+  ///              the air's motion belong together at any mass ratio (R10). Cores that are not listed do not yield
   ProjectionResult project(FaceField<Dim>& u, const Field<Dim>& density, const FaceField<Dim>& open,
-                           const Field<Dim, CellKind>& kind, double dt, const ProjectionOptions& options = {});
+                           const Field<Dim, CellKind>& kind, double dt, const ProjectionOptions& options = {},
+                           std::span<const HeavyCell<Dim>> heavy = {});
 
   /// [Pa]; the first guess of the next solve where it is better than none: state, to be stored in checkpoints.
   const Field<Dim>& pressure() const { return pressure_; }
@@ -57,9 +61,12 @@ class PressureProjection {
  private:
   void set_right_side(const FaceField<Dim>& u, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind);
   double subtract_closed_means(std::vector<double>& values);
+  void anchor_closed_components();
   void set_first_guess(const Field<Dim, CellKind>& kind, double to_potential);
   void set_pressure(const Field<Dim, CellKind>& kind, double to_pressure);
   void correct(FaceField<Dim>& u, const FaceField<Dim>& open) const;
+  void yield(FaceField<Dim>& u, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
+             std::span<const HeavyCell<Dim>> heavy) const;
 
   Sides sides_;
   double dx_;

@@ -4,8 +4,7 @@
 
 namespace spindrift {
 
-template <int Dim>
-void SmallCells<Dim>::find(const FaceField<Dim>& flow_area, const Ground<Dim>& ground) {
+template <int Dim> void SmallCells<Dim>::find(const FaceField<Dim>& flow_area, const Ground<Dim>& ground) {
   members_.clear();
   const auto& volume = ground.volume();
   for (const std::uint32_t cell : ground.small_cells()) {
@@ -26,17 +25,14 @@ void SmallCells<Dim>::find(const FaceField<Dim>& flow_area, const Ground<Dim>& g
             [](const Member& a, const Member& b) { return std::pair(a.root, a.cell) < std::pair(b.root, b.cell); });
 }
 
-template <int Dim>
-template <class F>
-void SmallCells<Dim>::for_each_group(F&& f) const {
+template <int Dim> template <class F> void SmallCells<Dim>::for_each_group(F&& f) const {
   for (std::size_t begin = 0, end = 0; begin < members_.size(); begin = end) {
     while (end < members_.size() && members_[end].root == members_[begin].root) ++end;
     f(members_[begin].root, std::span(members_).subspan(begin, end - begin));
   }
 }
 
-template <int Dim>
-void SmallCells<Dim>::lend(Field<Dim>& volume, const Field<Dim>& outflow, double limit) const {
+template <int Dim> void SmallCells<Dim>::lend(Field<Dim>& volume, const Field<Dim>& outflow, double limit) const {
   for_each_group([&](std::size_t root, std::span<const Member> group) {
     bool enough = outflow[root] <= limit * volume[root];
     double total = volume[root], out = outflow[root];
@@ -52,8 +48,7 @@ void SmallCells<Dim>::lend(Field<Dim>& volume, const Field<Dim>& outflow, double
   });
 }
 
-template <int Dim>
-void SmallCells<Dim>::share(Field<Dim>& smoke, const Field<Dim>& volume) const {
+template <int Dim> void SmallCells<Dim>::share(Field<Dim>& smoke, const Field<Dim>& volume) const {
   for_each_group([&](std::size_t root, std::span<const Member> group) {
     double mass = smoke[root], total = volume[root];
     for (const Member& m : group) mass += smoke[m.cell], total += volume[m.cell];

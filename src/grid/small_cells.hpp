@@ -1,6 +1,6 @@
 #pragma once
-/// Cells that the ground leaves less than half of: in the transport of smoke they act together with a neighbour, so that
-/// they neither force small time steps nor pile up smoke (R21).
+/// Cells that the ground leaves less than half of: in the transport of smoke they act together with a neighbour, so
+/// that they neither force small time steps nor pile up smoke (R21).
 
 #include <span>
 #include <vector>
@@ -11,8 +11,7 @@ namespace spindrift {
 
 /// Groups of small cells around a root: the neighbour of at least half a cell's volume behind the widest face. Small
 /// cells without such a neighbour stay alone. Scratch of one step.
-template <int Dim>
-class SmallCells {
+template <int Dim> class SmallCells {
  public:
   void find(const FaceField<Dim>& flow_area, const Ground<Dim>& ground);
 
@@ -29,8 +28,7 @@ class SmallCells {
   struct Member {
     std::uint32_t root, cell;
   };
-  template <class F>
-  void for_each_group(F&& f) const;
+  template <class F> void for_each_group(F&& f) const;
 
   std::vector<Member> members_;  ///< by root
 };

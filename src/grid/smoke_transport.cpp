@@ -12,8 +12,8 @@ namespace {
 constexpr double tiny = 1e-300;
 constexpr double largest_share = 0.98;  ///< of a cell's volume that may leave it at once: room for round-off
 
-/// Mass that passes a face with the volume `flow` from the left cell l to the right one r (or back, if negative); ll and
-/// rr are the cells beyond. density, volume: of the cells; room: volume of the donor that stays.
+/// Mass that passes a face with the volume `flow` from the left cell l to the right one r (or back, if negative); ll
+/// and rr are the cells beyond. density, volume: of the cells; room: volume of the donor that stays.
 template <class T>
 T limited_flux(T flow, T density_ll, T density_l, T density_r, T density_rr, T volume_l, T volume_r, T room_l,
                T room_r) {
@@ -36,8 +36,7 @@ Span joined(Span a, Span b) {
   return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
-template <int Dim>
-std::size_t row_of(const Index<Dim>& cell, const Index<Dim>& shape) {
+template <int Dim> std::size_t row_of(const Index<Dim>& cell, const Index<Dim>& shape) {
   return flat<Dim>(cell, shape) / static_cast<std::size_t>(shape[0]);
 }
 
@@ -56,9 +55,7 @@ SmokeTransport<Dim>::SmokeTransport(const MacGrid<Dim>& grid, const std::array<s
   before_.resize(volume_.n_rows());
 }
 
-template <int Dim>
-template <class T>
-T SmokeTransport<Dim>::Flow::through(int axis, std::size_t face) const {
+template <int Dim> template <class T> T SmokeTransport<Dim>::Flow::through(int axis, std::size_t face) const {
   return dt * load<T>(&flow_area[axis][face]) * (load<T>(&u[axis][face]) + settling[axis]);
 }
 
@@ -74,7 +71,8 @@ SmokeFlow SmokeTransport<Dim>::advance(Field<Dim>& smoke, const FaceField<Dim>& 
     std::fill(spans_.begin(), spans_.end(), Span{0, grid_.cells[0]});
     largest = largest_outflow(flow, ground);
   }
-  if (!(largest < 1e6)) throw Error(ExitCode::unstable, "smoke would have to cross more than a million cells in a step");
+  if (!(largest < 1e6))
+    throw Error(ExitCode::unstable, "smoke would have to cross more than a million cells in a step");
   if (largest > 0) {
     done.substeps = std::max(1, static_cast<int>(std::ceil(largest / largest_share)));
     flow.dt = dt / done.substeps;
@@ -95,8 +93,7 @@ SmokeFlow SmokeTransport<Dim>::advance(Field<Dim>& smoke, const FaceField<Dim>& 
   return done;
 }
 
-template <int Dim>
-bool SmokeTransport<Dim>::find_spans(const Field<Dim>& smoke) {
+template <int Dim> bool SmokeTransport<Dim>::find_spans(const Field<Dim>& smoke) {
   const auto has_smoke = [](double m) { return m != 0; };
   bool any = false;
   for (std::size_t r = 0; r < spans_.size(); ++r) {
@@ -112,8 +109,7 @@ bool SmokeTransport<Dim>::find_spans(const Field<Dim>& smoke) {
 }
 
 /// By the one cell that smoke can move along the axis.
-template <int Dim>
-void SmokeTransport<Dim>::widen_spans(int axis) {
+template <int Dim> void SmokeTransport<Dim>::widen_spans(int axis) {
   spans_.swap(before_);
   const auto step = axis == 0 ? 0 : static_cast<std::size_t>(volume_.stride(axis) / volume_.stride(1));
   for (std::size_t r = 0; r < spans_.size(); ++r) {
@@ -131,8 +127,7 @@ void SmokeTransport<Dim>::widen_spans(int axis) {
 
 /// Largest part of its volume that leaves a cell in dt, after small cells and their roots have lent each other volume:
 /// over all cells that smoke may reach in one substep. Sets volume_.
-template <int Dim>
-double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>& ground) {
+template <int Dim> double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>& ground) {
   for (int axis = 0; axis < Dim; ++axis) widen_spans(axis);
   parallel_for(
       spans_.size(),
@@ -161,8 +156,7 @@ double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>&
   });
 }
 
-template <int Dim>
-void SmokeTransport<Dim>::start_substep(const Field<Dim>& smoke) {
+template <int Dim> void SmokeTransport<Dim>::start_substep(const Field<Dim>& smoke) {
   parallel_for(
       spans_.size(),
       [&](std::size_t r) {
@@ -179,8 +173,7 @@ void SmokeTransport<Dim>::start_substep(const Field<Dim>& smoke) {
 }
 
 /// Fluxes through all faces of the cells in spans_.
-template <int Dim>
-void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow) {
+template <int Dim> void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow) {
   Field<Dim>& flux = flux_[axis];
   const int n = grid_.cells[axis];
   const auto cell = density_.stride(axis), face = flux.stride(axis);
@@ -192,8 +185,8 @@ void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow) {
   };
   const auto limited = [&](const Index<Dim>& start, int begin, int end) {
     const std::size_t first = flat<Dim>(start, flux.shape());
-    const double *density = density_.values().data() + flat<Dim>(start, grid_.cells);
-    const double *volume = swept_volume_.values().data() + flat<Dim>(start, grid_.cells);
+    const double* density = density_.values().data() + flat<Dim>(start, grid_.cells);
+    const double* volume = swept_volume_.values().data() + flat<Dim>(start, grid_.cells);
     for_each_pack(begin, end, [&]<class T>(int i) {
       const std::size_t f = first + static_cast<std::size_t>(i);
       const T q = flow.template through<T>(axis, f);
@@ -202,9 +195,9 @@ void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow) {
       const T volume_l = load<T>(volume + i - cell), volume_r = load<T>(volume + i);
       const T room_l = volume_l - (larger(q, T{}) - smaller(below, T{}));
       const T room_r = volume_r - (larger(above, T{}) - smaller(q, T{}));
-      store<T>(&flux[f], limited_flux<T>(q, load<T>(density + i - 2 * cell), load<T>(density + i - cell),
-                                         load<T>(density + i), load<T>(density + i + cell), volume_l, volume_r, room_l,
-                                         room_r));
+      store<T>(&flux[f],
+               limited_flux<T>(q, load<T>(density + i - 2 * cell), load<T>(density + i - cell), load<T>(density + i),
+                               load<T>(density + i + cell), volume_l, volume_r, room_l, room_r));
     });
   };
   parallel_for(
@@ -230,8 +223,7 @@ void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow) {
       flux.rows_per_task());
 }
 
-template <int Dim>
-void SmokeTransport<Dim>::update(int axis, Field<Dim>& smoke, const Flow& flow) {
+template <int Dim> void SmokeTransport<Dim>::update(int axis, Field<Dim>& smoke, const Flow& flow) {
   const auto next = static_cast<std::size_t>(flux_[axis].stride(axis));
   parallel_for(
       smoke.n_rows(),
@@ -253,8 +245,7 @@ void SmokeTransport<Dim>::update(int axis, Field<Dim>& smoke, const Flow& flow) 
 }
 
 /// Mass through the open sides at the ends of the axis in this sweep [kg].
-template <int Dim>
-double SmokeTransport<Dim>::outflow(int axis) const {
+template <int Dim> double SmokeTransport<Dim>::outflow(int axis) const {
   double mass = 0;
   Index<Dim> ends = flux_[axis].shape();
   ends[axis] = 1;
@@ -295,8 +286,7 @@ double SmokeTransport<Dim>::deposit(Field<Dim>& smoke, const Ground<Dim>& ground
   return deposited;
 }
 
-template <int Dim>
-std::size_t SmokeTransport<Dim>::bytes() const {
+template <int Dim> std::size_t SmokeTransport<Dim>::bytes() const {
   std::size_t n = volume_.bytes() + swept_volume_.bytes() + density_.bytes() + outflow_.bytes();
   for (const auto& f : flux_) n += f.bytes();
   return n + spindrift::bytes(spans_, before_) + small_cells_.bytes();

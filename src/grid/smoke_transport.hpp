@@ -15,15 +15,14 @@ struct SmokeFlow {
   int substeps = 0;
 };
 
-template <int Dim>
-class SmokeTransport {
+template <int Dim> class SmokeTransport {
  public:
   SmokeTransport(const MacGrid<Dim>& grid, const std::array<std::array<Side, 2>, Dim>& sides);
 
   /// Flux form, one axis after the other, with the volume that each sweep takes from and gives to a cell tracked beside
   /// its mass, so that uniform smoke in a divergence-free flow stays uniform. Face values are third order in space and
-  /// time, limited by the neighbours and by what the donor holds (ULTIMATE QUICKEST, Leonard 1991): no new extrema along
-  /// an axis, and m >= 0. Air that enters through open sides is clean.
+  /// time, limited by the neighbours and by what the donor holds (ULTIMATE QUICKEST, Leonard 1991): no new extrema
+  /// along an axis, and m >= 0. Air that enters through open sides is clean.
   ///   m_i' = m_i - dt sum_f rho_f (u_f + w) . A_f,   w = settling velocity
   /// Sub-cycled until no cell's outflow exceeds its open volume. Small cells and their roots
   /// (SmallCells) lend each other volume within the step and share their smoke after it.
@@ -45,8 +44,7 @@ class SmokeTransport {
     const FaceField<Dim>& flow_area;
     Vec<Dim> settling;
     double dt;
-    template <class T>
-    T through(int axis, std::size_t face) const;
+    template <class T> T through(int axis, std::size_t face) const;
   };
 
   bool find_spans(const Field<Dim>& smoke);

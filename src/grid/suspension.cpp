@@ -27,11 +27,10 @@ Suspension<Dim>::Suspension(const MacGrid<Dim>& grid, const Sides& sides, const 
       core_boundary_(sides),
       density_(grid.cells) {
   for (std::size_t axis = 0; axis < Dim; ++axis) carrier_speed_[axis].resize(velocity_[axis].n_rows());
-  update_active();
+  update_active(0, grid_.cells[0]);
 }
 
-template <int Dim>
-void Suspension<Dim>::set_velocity(const FaceField<Dim>& u) {
+template <int Dim> void Suspension<Dim>::set_velocity(const FaceField<Dim>& u) {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     SPINDRIFT_CHECK(u[axis].shape() == velocity_[axis].shape());
     std::ranges::copy(u[axis].values(), velocity_[axis].values().begin());
@@ -39,88 +38,82 @@ void Suspension<Dim>::set_velocity(const FaceField<Dim>& u) {
   start_from_velocity();
 }
 
-template <int Dim>
-void Suspension<Dim>::set_smoke_mass(const Field<Dim>& smoke) {
+template <int Dim> void Suspension<Dim>::set_smoke_mass(const Field<Dim>& smoke) {
   SPINDRIFT_CHECK(smoke.shape() == grid_.cells);
   std::ranges::copy(smoke.values(), smoke_.values().begin());
 }
 
-template <int Dim>
-void Suspension<Dim>::set_kind(const Field<Dim, CellKind>& kind) {
+template <int Dim> void Suspension<Dim>::set_kind(const Field<Dim, CellKind>& kind) {
   SPINDRIFT_CHECK(kind.shape() == grid_.cells);
   std::ranges::copy(kind.values(), kind_.values().begin());
   kinds_are_old_ = true;
-  update_active();
+  update_active(0, grid_.cells[0]);
 }
 
-template <int Dim>
-void Suspension<Dim>::set_pressure(const Field<Dim>& pressure) {
+template <int Dim> void Suspension<Dim>::set_pressure(const Field<Dim>& pressure) {
   SPINDRIFT_CHECK(pressure.shape() == grid_.cells);
   std::ranges::copy(pressure.values(), projection_.pressure().values().begin());
 }
 
-template <int Dim>
-void Suspension<Dim>::set_ground(const Field<Dim>& node_distance) {
+template <int Dim> void Suspension<Dim>::set_ground(const Field<Dim>& node_distance) {
   set_ground(node_distance, 0, grid_.cells[0]);
 }
 
-template <int Dim>
-void Suspension<Dim>::set_ground(const Field<Dim>& node_distance, int begin, int end) {
+template <int Dim> void Suspension<Dim>::set_ground(const Field<Dim>& node_distance, int begin, int end) {
   ground_.set(node_distance, begin, end);
   ground_.clear_deep(velocity_, begin, end);
   ground_.clear_deep(carrier_, begin, end);
   advection_.clear_deep(ground_, begin, end);
-  for (std::size_t cell = 0; cell < kind_.size(); ++cell) {
-    if (ground_.volume()[cell] <= 0) {
-      kind_[cell] = CellKind::solid;
-    } else if (kind_[cell] == CellKind::solid) {
-      kind_[cell] = CellKind::open;
+  for (std::size_t r = 0; r < kind_.n_rows(); ++r) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      CellKind& kind = kind_.row(r)[i];
+      if (ground_.volume().row(r)[i] <= 0) {
+        kind = CellKind::solid;
+      } else if (kind == CellKind::solid) {
+        kind = CellKind::open;
+      }
     }
   }
   kinds_are_old_ = true;
-  update_active();
+  update_active(begin, end);
 }
 
-template <int Dim>
-double Suspension<Dim>::face_mass(int axis, std::size_t face) const {
+template <int Dim> double Suspension<Dim>::face_mass(int axis, std::size_t face) const {
   const double air = ground_.air_mass()[axis][face];
   return air > 0 ? air + smoke_of_face<Dim>(smoke_, axis, unflat<Dim>(face, grid_.faces(axis))) : 0;
 }
 
-template <int Dim>
-double Suspension<Dim>::smoke_density(std::size_t cell) const {
+template <int Dim> double Suspension<Dim>::smoke_density(std::size_t cell) const {
   const double volume = ground_.volume()[cell];
   return volume > 0 ? smoke_[cell] / volume : 0;
 }
 
-template <int Dim>
-Vec<Dim> Suspension<Dim>::momentum() const {
+template <int Dim> Vec<Dim> Suspension<Dim>::momentum() const {
   Vec<Dim> sum;
   for (int axis = 0; axis < Dim; ++axis) {
     const double* u = velocity_[axis].values().data();
-    sum[axis] = sum_over_faces<Dim>(axis, ground_, smoke_, [u]<class T>(std::size_t face, std::size_t, std::size_t) {
-      return load<T>(u + face);
-    });
+    sum[axis] = sum_over_faces<Dim>(
+        axis, ground_, smoke_, [u]<class T>(std::size_t face, std::size_t, std::size_t) { return load<T>(u + face); });
   }
   return sum;
 }
 
-template <int Dim>
-double Suspension<Dim>::total_smoke() const {
+template <int Dim> double Suspension<Dim>::total_smoke() const {
   return parallel_sum(smoke_.size(), 0.0, [&](std::size_t cell) { return smoke_[cell]; });
 }
 
-template <int Dim>
-double Suspension<Dim>::max_speed() const {
+template <int Dim> double Suspension<Dim>::max_speed() const {
   double speed = 0;
-  for (const auto& rows : carrier_speed_)
-    for (const double s : rows)
-      if (!(s <= speed)) speed = s;
+  for (const auto& rows : carrier_speed_) {
+    for (const double s : rows) {
+      if (s != s) return s;
+      speed = std::max(speed, s);
+    }
+  }
   return speed;
 }
 
-template <int Dim>
-void Suspension<Dim>::start_from_velocity() {
+template <int Dim> void Suspension<Dim>::start_from_velocity() {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     auto& u = velocity_[axis];
     parallel_for(
@@ -136,8 +129,7 @@ void Suspension<Dim>::start_from_velocity() {
   disturbed_ = false;
 }
 
-template <int Dim>
-void Suspension<Dim>::set_density() {
+template <int Dim> void Suspension<Dim>::set_density() {
   parallel_for(
       smoke_.n_rows(),
       [&](std::size_t r) {
@@ -151,10 +143,10 @@ void Suspension<Dim>::set_density() {
       smoke_.rows_per_task());
 }
 
-template <int Dim>
-Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
+template <int Dim> Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
   Vec<Dim> change = Vec<Dim>::Zero();
-  if (options_.gravity.isZero() || std::ranges::none_of(smoke_.values(), [](double m) { return m != 0; })) return change;
+  if (options_.gravity.isZero() || std::ranges::none_of(smoke_.values(), [](double m) { return m != 0; }))
+    return change;
   disturbed_ = true;
   set_density();
   const double* density = density_.values().data();
@@ -163,8 +155,8 @@ Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
     double* u = velocity_[axis].values().data();
     const double* area = flow_area_[axis].values().data();
     const double push = dt * options_.gravity[axis], air = options_.air_density;
-    change[axis] = sum_over_faces<Dim>(
-        axis, ground_, smoke_, [=]<class T>(std::size_t face, std::size_t low, std::size_t high) {
+    change[axis] =
+        sum_over_faces<Dim>(axis, ground_, smoke_, [=]<class T>(std::size_t face, std::size_t low, std::size_t high) {
           const T total = 0.5 * (load<T>(density + low) + load<T>(density + high));
           const T du = load<T>(area + face) > 0 ? push * (total - air) / total : T{};
           store<T>(u + face, load<T>(u + face) + du);
@@ -174,13 +166,13 @@ Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
   return change;
 }
 
-template <int Dim>
-Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sources) {
+template <int Dim> Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sources) {
   face_momentum_.clear();
   for (int axis = 0; axis < Dim; ++axis)
     for (const PointSource& source : sources.momentum[axis])
       face_momentum_.push_back(face_mass(axis, source.point) * velocity_[axis][source.point]);
-  for (const PointSource& source : sources.smoke) smoke_[source.point] = std::max(0.0, smoke_[source.point] + source.amount);
+  for (const PointSource& source : sources.smoke)
+    smoke_[source.point] = std::max(0.0, smoke_[source.point] + source.amount);
   Vec<Dim> change = Vec<Dim>::Zero();
   std::size_t n = 0;
   for (int axis = 0; axis < Dim; ++axis) {
@@ -195,8 +187,7 @@ Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sources) {
   return change;
 }
 
-template <int Dim>
-std::size_t Suspension<Dim>::bytes() const {
+template <int Dim> std::size_t Suspension<Dim>::bytes() const {
   std::size_t n = smoke_.bytes() + kind_.bytes() + density_.bytes() + projection_.bytes() + ground_.bytes() +
                   advection_.bytes() + smoke_transport_.bytes() + diffusion_.bytes() + confinement_.bytes() +
                   core_boundary_.bytes() + components_.bytes() + spindrift::bytes(face_momentum_);

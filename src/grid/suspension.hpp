@@ -18,39 +18,36 @@
 
 namespace spindrift {
 
-template <int Dim>
-struct SuspensionOptions {
-  Vec<Dim> gravity = -9.81 * up<Dim>();  ///< [m s^-2]
-  double air_density = 1.2;              ///< [kg m^-3]
+template <int Dim> struct SuspensionOptions {
+  Vec<Dim> gravity = -9.81 * up<Dim>();                  ///< [m s^-2]
+  double air_density = 1.2;                              ///< [kg m^-3]
   AdvectionScheme scheme = AdvectionScheme::maccormack;  ///< of the velocity
-  double viscosity = 0;                  ///< kinematic, of the air [m^2 s^-1]
-  double diffusivity = 0;                ///< of the smoke [m^2 s^-1]
-  double settling_speed = 0;             ///< of the smoke relative to the air, along gravity [m s^-1] (R19)
-  std::optional<double> confinement;     ///< epsilon of vorticity confinement
+  double viscosity = 0;                                  ///< kinematic, of the air [m^2 s^-1]
+  double diffusivity = 0;                                ///< of the smoke [m^2 s^-1]
+  double settling_speed = 0;          ///< of the smoke relative to the air, along gravity [m s^-1] (R19)
+  std::optional<double> confinement;  ///< epsilon of vorticity confinement
   ProjectionOptions pressure;
-  bool moving_core = true;               ///< R10; false: the paper's rule, normal velocity 0
+  bool moving_core = true;  ///< R10; false: the paper's rule, normal velocity 0
 };
 
 /// What advance() did. The momentum entries [kg m s^-1] are changes of Suspension::momentum(); their sum is its change
 /// over the call.
-template <int Dim>
-struct SuspensionBudget {
-  Vec<Dim> core = Vec<Dim>::Zero();         ///< faces set to the core's velocity, smoke pushed out of the core
-  Vec<Dim> advection = Vec<Dim>::Zero();    ///< of the velocity
-  Vec<Dim> smoke = Vec<Dim>::Zero();        ///< smoke that moved to cells of another velocity, left or was deposited
+template <int Dim> struct SuspensionBudget {
+  Vec<Dim> core = Vec<Dim>::Zero();       ///< faces set to the core's velocity, smoke pushed out of the core
+  Vec<Dim> advection = Vec<Dim>::Zero();  ///< of the velocity
+  Vec<Dim> smoke = Vec<Dim>::Zero();      ///< smoke that moved to cells of another velocity, left or was deposited
   Vec<Dim> diffusion = Vec<Dim>::Zero();
   Vec<Dim> confinement = Vec<Dim>::Zero();
   Vec<Dim> projection = Vec<Dim>::Zero();
   Vec<Dim> core_pressure = Vec<Dim>::Zero();  ///< impulse of the pressure on the core; not a change of the grid's, but
                                               ///< projection + core_pressure = impulse of sides and ground on the air
-  double outflow = 0;                       ///< smoke that left through open sides [kg]
-  double deposited = 0;                     ///< smoke that settled on the ground [kg]
+  double outflow = 0;                         ///< smoke that left through open sides [kg]
+  double deposited = 0;                       ///< smoke that settled on the ground [kg]
   int smoke_substeps = 0;
   ProjectionResult pressure;
 };
 
-template <int Dim>
-class Suspension {
+template <int Dim> class Suspension {
  public:
   using Sides = std::array<std::array<Side, 2>, Dim>;
 
@@ -60,9 +57,9 @@ class Suspension {
   const SuspensionOptions<Dim>& options() const { return options_; }
 
   // State, for output and checkpoints. Everything else is derived or scratch.
-  const FaceField<Dim>& velocity() const { return velocity_; }         ///< u on faces [m/s]
-  const Field<Dim>& smoke_mass() const { return smoke_; }              ///< in each cell [kg], >= 0 (R7)
-  const Field<Dim, CellKind>& kind() const { return kind_; }           ///< of the last step
+  const FaceField<Dim>& velocity() const { return velocity_; }           ///< u on faces [m/s]
+  const Field<Dim>& smoke_mass() const { return smoke_; }                ///< in each cell [kg], >= 0 (R7)
+  const Field<Dim, CellKind>& kind() const { return kind_; }             ///< of the last step
   const Field<Dim>& pressure() const { return projection_.pressure(); }  ///< [Pa]
 
   /// Initial conditions and restart, between steps. The velocity should be divergence-free; values on closed faces are
@@ -88,15 +85,15 @@ class Suspension {
   /// sum over faces of face_mass u [kg m s^-1].
   Vec<Dim> momentum() const;
   double total_smoke() const;  ///< [kg]
-  double max_speed() const;    ///< largest face velocity at the end of the last step [m/s]
+  double max_speed() const;    ///< largest face velocity at the end of the last step [m/s]; NaN: not finite
 
   /// One term (R8): du = dt r_s g on active faces, r_s = rho_smoke / (rho_air + rho_smoke), Eqs. (7)-(9).
   /// Returns the change of momentum() [kg m s^-1].
   Vec<Dim> add_gravity(double dt);
 
-  /// u' = (m_f u + J_f) / m_f' on listed active faces, smoke' = smoke + source. Listed faces that are not active take no
-  /// momentum. Returns the change of momentum() [kg m s^-1]: the sum of the J_f where all faces of a cell with a source
-  /// are active and listed.
+  /// u' = (m_f u + J_f) / m_f' on listed active faces, smoke' = smoke + source. Listed faces that are not active take
+  /// no momentum. Returns the change of momentum() [kg m s^-1]: the sum of the J_f where all faces of a cell with a
+  /// source are active and listed.
   Vec<Dim> apply(const GridSources<Dim>& sources);
 
   /// The rest of the step, paper Sec. 4.2: kinds of cells, core boundary (R10), advection, smoke transport (R7),
@@ -110,7 +107,7 @@ class Suspension {
  private:
   bool at_rest(std::span<const CoreCell<Dim>> cores) const;
   void classify(std::span<CoreCell<Dim>> cores);
-  void update_active();
+  void update_active(int begin, int end);
   void move_smoke(double dt, Stages& stages);
   void start_from_velocity();
   void set_density();
@@ -126,11 +123,11 @@ class Suspension {
 
   Ground<Dim> ground_;
   FaceField<Dim, unsigned char> active_;
-  FaceField<Dim> flow_area_;      ///< open area of active faces [m^(Dim-1)], 0 of the others
-  FaceField<Dim> carrier_;        ///< divergence-free velocity of the step's start, which carries air and smoke
+  FaceField<Dim> flow_area_;  ///< open area of active faces [m^(Dim-1)], 0 of the others
+  FaceField<Dim> carrier_;    ///< divergence-free velocity of the step's start, which carries air and smoke
   RowSpeeds<Dim> carrier_speed_;
-  bool disturbed_ = false;        ///< gravity or sources have changed the velocity since the last advance()
-  bool kinds_are_old_ = false;    ///< ground or kinds have been set since they were derived
+  bool disturbed_ = false;      ///< gravity or sources have changed the velocity since the last advance()
+  bool kinds_are_old_ = false;  ///< ground or kinds have been set since they were derived
 
   VelocityAdvection<Dim> advection_;
   SmokeTransport<Dim> smoke_transport_;
@@ -138,7 +135,7 @@ class Suspension {
   Confinement<Dim> confinement_;
   CoreBoundary<Dim> core_boundary_;
   Components<Dim> components_;
-  Field<Dim> density_;            ///< air and smoke [kg m^-3], scratch of the projection
+  Field<Dim> density_;                 ///< air and smoke [kg m^-3], scratch of the projection
   std::vector<double> face_momentum_;  ///< scratch of apply()
   SuspensionBudget<Dim> budget_;
 };

@@ -5,8 +5,7 @@
 
 namespace spindrift {
 
-template <int Dim>
-void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages& stages) {
+template <int Dim> void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages& stages) {
   budget_ = {};
   if (at_rest(cores)) return move_smoke(dt, stages);
 
@@ -49,9 +48,11 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
   {
     const auto timed = stages.time("suspension.pressure");
     set_density();
-    budget_.pressure = projection_.project(velocity_, density_, ground_.open(), kind_, dt, options_.pressure);
-    budget_.core_pressure = core_boundary_.add_pressure(cores, projection_.pressure(), kind_, ground_.open(),
-                                                        grid_.face_area(), dt);
+    const bool moving = options_.moving_core;
+    const auto heavy = moving ? core_boundary_.heavy_cells(cores, kind_) : std::span<const HeavyCell<Dim>>{};
+    budget_.pressure = projection_.project(velocity_, density_, ground_.open(), kind_, dt, options_.pressure, heavy);
+    budget_.core_pressure = core_boundary_.add_pressure(cores, projection_.pressure(), kind_, smoke_, ground_,
+                                                        grid_.face_area(), dt, moving);
     book(budget_.projection);
   }
   const auto timed = stages.time("suspension.extrapolation");
@@ -60,25 +61,23 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
 }
 
 /// No air moves and none will.
-template <int Dim>
-bool Suspension<Dim>::at_rest(std::span<const CoreCell<Dim>> cores) const {
+template <int Dim> bool Suspension<Dim>::at_rest(std::span<const CoreCell<Dim>> cores) const {
   return cores.empty() && !kinds_are_old_ && !disturbed_ && max_speed() == 0;
 }
 
 /// Sets the kind of every cell, and what follows from it.
-template <int Dim>
-void Suspension<Dim>::classify(std::span<CoreCell<Dim>> cores) {
+template <int Dim> void Suspension<Dim>::classify(std::span<CoreCell<Dim>> cores) {
   for (std::size_t cell = 0; cell < kind_.size(); ++cell)
     kind_[cell] = ground_.volume()[cell] > 0 ? CellKind::open : CellKind::solid;
   for (const CoreCell<Dim>& core : cores)
     if (kind_[core.cell] == CellKind::open) kind_[core.cell] = CellKind::core;
   if (!cores.empty()) mark_pockets<Dim>(kind_, ground_.open(), sides_, components_);
   kinds_are_old_ = !cores.empty();
-  update_active();
+  update_active(0, grid_.cells[0]);
 }
 
-template <int Dim>
-void Suspension<Dim>::update_active() {
+/// Of the faces of the cell columns [begin, end).
+template <int Dim> void Suspension<Dim>::update_active(int begin, int end) {
   for (int axis = 0; axis < Dim; ++axis) {
     auto& active = active_[axis];
     const int n = grid_.cells[axis];
@@ -91,9 +90,9 @@ void Suspension<Dim>::update_active() {
           const double* open = ground_.open()[axis].row(r).data();
           unsigned char* flag = active.row(r).data();
           double* flow = flow_area_[axis].row(r).data();
-          const auto length = static_cast<std::size_t>(active.shape()[0]);
           const std::size_t cell = flat<Dim>(start, grid_.cells);
-          for (std::size_t i = 0; i < length; ++i) {
+          const auto last = static_cast<std::size_t>(axis == 0 ? end + 1 : end);
+          for (auto i = static_cast<std::size_t>(begin); i < last; ++i) {
             const int along = axis == 0 ? static_cast<int>(i) : start[axis];
             bool on = open[i] > 0;
             if (along == 0) {
@@ -114,8 +113,7 @@ void Suspension<Dim>::update_active() {
   }
 }
 
-template <int Dim>
-void Suspension<Dim>::move_smoke(double dt, Stages& stages) {
+template <int Dim> void Suspension<Dim>::move_smoke(double dt, Stages& stages) {
   Vec<Dim> settling = Vec<Dim>::Zero();
   if (options_.settling_speed > 0 && !options_.gravity.isZero())
     settling = options_.settling_speed * options_.gravity.normalized();

@@ -17,22 +17,21 @@ template <int Dim> std::size_t hash(const GroundBin<Dim>& bin) {
 
 /// The place in the table of `bin`, or the free one where it would go.
 template <int Dim> std::size_t probe(const Columns<Dim>& columns, const GroundBin<Dim>& bin) {
-  const std::size_t mask = columns.table_.size() - 1;
+  const std::size_t mask = columns.table.size() - 1;
   std::size_t place = hash<Dim>(bin) & mask;
-  while (columns.table_[place] != 0 && columns.columns[columns.table_[place] - 1].bin != bin)
-    place = (place + 1) & mask;
+  while (columns.table[place] != 0 && columns.columns[columns.table[place] - 1].bin != bin) place = (place + 1) & mask;
   return place;
 }
 
 template <int Dim> void grow_table(Columns<Dim>& columns) {
-  columns.table_.assign(std::max<std::size_t>(64, 4 * columns.table_.size()), 0);
+  columns.table.assign(std::max<std::size_t>(64, 4 * columns.table.size()), 0);
   for (std::uint32_t c = 0; c < columns.columns.size(); ++c)
-    columns.table_[probe(columns, columns.columns[c].bin)] = c + 1;
+    columns.table[probe(columns, columns.columns[c].bin)] = c + 1;
 }
 
 template <int Dim> std::uint32_t column_at(Columns<Dim>& columns, const GroundBin<Dim>& bin) {
-  if (2 * columns.columns.size() >= columns.table_.size()) grow_table(columns);
-  std::uint32_t& entry = columns.table_[probe(columns, bin)];
+  if (2 * columns.columns.size() >= columns.table.size()) grow_table(columns);
+  std::uint32_t& entry = columns.table[probe(columns, bin)];
   if (entry == 0) {
     columns.columns.push_back({.bin = bin});
     entry = static_cast<std::uint32_t>(columns.columns.size());
@@ -49,19 +48,19 @@ template <int Dim> void sort_by_column(Columns<Dim>& columns) {
     n += c.end;
     c.end = c.first;
   }
-  columns.heights_.resize(columns.column.size());
+  columns.heights.resize(columns.column.size());
   columns.members.resize(columns.column.size());
   for (std::uint32_t i = 0; i < columns.column.size(); ++i)
-    columns.heights_[columns.columns[columns.column[i]].end++] = {columns.foot[i].distance, i};
+    columns.heights[columns.columns[columns.column[i]].end++] = {columns.foot[i].distance, i};
 }
 
 template <int Dim> void sort_by_height(const Column<Dim>& c, Columns<Dim>& columns, const Particles<Dim>& dense) {
   using Height = typename Columns<Dim>::Height;
-  Height* const heights = columns.heights_.data();
-  std::sort(heights + c.first, heights + c.end, [&dense](const Height& a, const Height& b) {
+  Height* const sorted = columns.heights.data();
+  std::sort(sorted + c.first, sorted + c.end, [&dense](const Height& a, const Height& b) {
     return a.distance != b.distance ? a.distance < b.distance : dense.id[a.particle] < dense.id[b.particle];
   });
-  for (std::uint32_t k = c.first; k < c.end; ++k) columns.members[k] = heights[k].particle;
+  for (std::uint32_t k = c.first; k < c.end; ++k) columns.members[k] = sorted[k].particle;
 }
 
 template <int Dim>
@@ -88,8 +87,8 @@ void measure(Column<Dim>& c, const Columns<Dim>& columns, const Particles<Dim>& 
 }  // namespace
 
 template <int Dim> const Column<Dim>* Columns<Dim>::find(const GroundBin<Dim>& bin) const {
-  if (table_.empty()) return nullptr;
-  const std::uint32_t entry = table_[probe(*this, bin)];
+  if (table.empty()) return nullptr;
+  const std::uint32_t entry = table[probe(*this, bin)];
   return entry == 0 ? nullptr : &columns[entry - 1];
 }
 
@@ -100,7 +99,7 @@ void build_columns(Columns<Dim>& columns, const Terrain<Dim>& terrain, const Par
   const std::size_t n = dense.size();
   columns.bin_size = 2 * spacing;
   columns.columns.clear();
-  std::fill(columns.table_.begin(), columns.table_.end(), 0);
+  std::fill(columns.table.begin(), columns.table.end(), 0);
   columns.foot.resize(n);
   columns.column.resize(n);
   // A position that is not finite is reported by the step's checks; until then it hovers out of reach.

@@ -43,16 +43,16 @@ template <int Dim> struct Columns {
   }
 
   std::size_t bytes() const {
-    return spindrift::bytes(foot) + spindrift::bytes(column, members, table_) + spindrift::bytes(columns) +
-           spindrift::bytes(heights_);
+    return spindrift::bytes(foot) + spindrift::bytes(column, members, table) + spindrift::bytes(columns) +
+           spindrift::bytes(heights);
   }
 
   struct Height {
     double distance;
     std::uint32_t particle;
   };
-  std::vector<std::uint32_t> table_;  ///< open-addressed: number of a column + 1, or 0
-  std::vector<Height> heights_;       ///< scratch: members with what they are sorted by
+  std::vector<std::uint32_t> table;  ///< open-addressed: number of a column + 1, or 0
+  std::vector<Height> heights;       ///< scratch: members with what they are sorted by
 };
 
 /// Sorts the dense particles into columns over bins of edge 2 d.

@@ -89,16 +89,14 @@ VelocitySolve<Dim> DenseFlow<Dim>::solve_velocity(double dt, Stages& stages) {
       auto timed = stages.time("dense_flow.artificial_viscosity");
       wave_speed_.resize(particles.size());
       parallel_for(particles.size(), [&](std::size_t i) {
-        wave_speed_[i] = std::sqrt(particles.divergence_pressure[i] / options_.density);
+        wave_speed_[i] = std::sqrt(particles.pressure[i] / options_.density);
       });
       artificial_viscosity_.apply(particles, neighbours_, wave_speed_, dt);
     }
-    {
-      auto timed = stages.time("dense_flow.divergence");
-      done.divergence = pressure_solver_.solve_divergence(particles, neighbours_, dt, done.boundary_impulse);
-    }
-    auto timed = stages.time("dense_flow.density");
-    done.density = pressure_solver_.solve_density(particles, neighbours_, dt, correction_);
+    auto timed = stages.time("dense_flow.pressure");
+    const SolveReport report = pressure_solver_.solve(particles, neighbours_, dt, done.boundary_impulse);
+    done.density = {report.iterations, report.error / compression_relaxation};
+    done.divergence = {report.iterations, 100 * report.error};
   }
   check_velocities(particles, "after the dense flow's solve");
   return done;
@@ -107,13 +105,11 @@ VelocitySolve<Dim> DenseFlow<Dim>::solve_velocity(double dt, Stages& stages) {
 template <int Dim>
 Vec<Dim> DenseFlow<Dim>::move(double dt, const Walls<Dim>& walls, Stages& stages) {
   auto timed = stages.time("dense_flow.move");
-  const bool corrected = options_.solver == DenseSolver::dfsph;
-  SPINDRIFT_CHECK(!corrected || correction_.size() == particles.size());
   return parallel_sum<Vec<Dim>>(particles.size(), Vec<Dim>::Zero(), [&](std::size_t i) -> Vec<Dim> {
     Vec<Dim>& x = particles.position[i];
     Vec<Dim>& v = particles.velocity[i];
     const Vec<Dim> before = v;
-    x += corrected ? Vec<Dim>(dt * (v + correction_[i])) : Vec<Dim>(dt * v);
+    x += dt * v;
     const auto put_back = [&](double distance, const Vec<Dim>& normal) {
       x -= distance * normal;
       v -= std::min(0.0, v.dot(normal)) * normal;
@@ -149,8 +145,7 @@ double DenseFlow<Dim>::time_step_limit(double cfl, double gravity) const {
 template <int Dim>
 std::size_t DenseFlow<Dim>::bytes() const {
   return particles.bytes() + wall_kernel_.bytes() + cells_.bytes() + neighbours_.bytes() + pressure_solver_.bytes() +
-         viscosity_solver_.bytes() + artificial_viscosity_.bytes() + spindrift::bytes(correction_) +
-         spindrift::bytes(wave_speed_);
+         viscosity_solver_.bytes() + artificial_viscosity_.bytes() + spindrift::bytes(wave_speed_);
 }
 
 template class DenseFlow<2>;

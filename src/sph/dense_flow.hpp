@@ -57,7 +57,9 @@ Removed<Dim> remove_if(Particles<Dim>& particles, F&& gone) {
 /// What one velocity solve did.
 template <int Dim>
 struct VelocitySolve {
-  SolveReport viscosity, divergence, density;
+  SolveReport viscosity;
+  SolveReport divergence;  ///< error: mean rate of compression left [percent of the volume a step]
+  SolveReport density;     ///< error: the mean compression at which that rate lets the volume settle; the same solve
   Vec<Dim> boundary_impulse = Vec<Dim>::Zero();  ///< given by walls and cover to the particles [kg m s^-1]
 };
 
@@ -75,10 +77,9 @@ class DenseFlow {
   void sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages);
   /// 2: viscosity and pressure. Gravity is in the velocities already. dfsph is kept quiet by ArtificialViscosity with the
   /// wave speed sqrt(p / rho) of the last step's pressure: none in free fall, and less the finer the particles.
-  /// The pressure of the flow is particles.divergence_pressure.
   /// Throws Error(unstable): a velocity not finite.
   VelocitySolve<Dim> solve_velocity(double dt, Stages& stages);
-  /// 3: x += dt (v + the density solve's correction). What ended in a wall is put back on its surface, its velocity into the wall removed.
+  /// 3: x += dt v. What ended in a wall is put back on its surface, its velocity into the wall removed.
   /// Returns the impulse that the walls gave [kg m s^-1].
   Vec<Dim> move(double dt, const Walls<Dim>& walls, Stages& stages);
   /// 4: removes what left through an open side (R23).
@@ -107,7 +108,6 @@ class DenseFlow {
   ViscositySolver<Dim> viscosity_solver_;
   ArtificialViscosity<Dim> artificial_viscosity_;
   std::vector<double> wave_speed_;    ///< sqrt(p / rho), or the sound speed of wcsph [m s^-1]
-  std::vector<Vec<Dim>> correction_;  ///< of the velocity, for this step's move alone [m s^-1]
 };
 
 }  // namespace spindrift

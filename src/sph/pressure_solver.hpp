@@ -1,6 +1,5 @@
 #pragma once
-/// Implicit pressure on volume (R11), after the divergence-free and constant-density solves of DFSPH (Bender & Koschier
-/// 2015), both as one relaxed Jacobi iteration with two sources.
+/// Implicit pressure on volume (R11), after DFSPH (Bender & Koschier 2015).
 
 #include <vector>
 
@@ -22,44 +21,46 @@ struct SolveReport {
   double error = 0;  ///< in the units of the tolerance
 };
 
+/// The share of a particle's compression that one step takes back. The solve leaves a rate of compression r a step; the
+/// volume then settles at a compression of r / compression_relaxation.
+inline constexpr double compression_relaxation = 0.4;
+
 /// Pressure p >= 0 acts by F_i = -V_i [sum_j V_j (p_i + p_j) grad W_ij + 2 p_i b_i], mass enters by a = F / m only.
 /// Its adjoint is the rate of compression D_i(v) = sum_j V_j (v_i - v_j) . grad W_ij + 2 v_i . b_i, b of Neighbours.
-/// The iterations run in single precision; the velocities change by apply_pressure, in double precision.
+/// One solve does the work of DFSPH's two: v += dt a(p) such that, with k = compression_relaxation and e = 1 - delta,
+///   dt D(v) <= max(k e, -0.005)                     where the volume sum delta is over 1,
+///   dt D(v) <= e [k + (1 - k) min(1, e / 0.1)]      else,
+/// with p > 0 only where equality holds. So full snow keeps its volume, compression is taken back over a few steps and
+/// not at once (which would fling the snow apart), and spray and free surfaces may approach until they are full. They
+/// are never glued, as p >= 0.
+///
+/// Relaxed Jacobi iteration, sped up by Nesterov's extrapolation with restarts, in single precision; the velocities
+/// change by apply_pressure, in double precision.
 template <int Dim>
 class PressureSolver {
  public:
   PressureSolver(const PressureOptions& options, double support_radius) : options_(options), h_(support_radius) {}
 
-  /// Divergence-free solve: v += dt a(p) such that  delta + dt D(v) <= max(delta, 0.95):  what is full must not be
-  /// compressed further, what is not may approach until it is. So spray and free surfaces are never held apart, and
-  /// never glued, as p >= 0. First guess and result: particles.divergence_pressure, the pressure of the flow.
-  /// boundary_impulse: += what walls and cover gave [kg m s^-1].
-  SolveReport solve_divergence(Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt,
-                               Vec<Dim>& boundary_impulse);
-
-  /// Constant-density solve: correction = dt a(p), a velocity that moves the particles in this step and is then
-  /// forgotten, such that  delta + dt D(v + correction) <= max(1, delta - 0.003). First guess and result: particles.pressure.
-  /// Kept in v, the corrections would feed a boiling motion.
-  /// Goes on with the D(v) that solve_divergence left: call it right after, with the same particles and dt.
-  SolveReport solve_density(Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt,
-                            std::vector<Vec<Dim>>& correction);
+  /// First guess and result: particles.pressure. boundary_impulse: += what walls and cover gave [kg m s^-1].
+  /// Ends when the mean error r of dt D is at most compression_relaxation times density_tolerance and a hundredth of
+  /// divergence_tolerance, or after max_iterations; at least one iteration. Returns r.
+  SolveReport solve(Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt,
+                    Vec<Dim>& boundary_impulse);
 
   std::size_t bytes() const;
 
  private:
   void prepare(const Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt);
-  SolveReport solve(std::vector<double>& pressure, const Neighbours<Dim>& neighbours, double tolerance);
-  void find_accelerations(const Neighbours<Dim>& neighbours);
+  void find_displacements(const Neighbours<Dim>& neighbours);
   double find_residuals(const Neighbours<Dim>& neighbours);
-  void update_pressures();
+  void update_pressures(float momentum);
 
   PressureOptions options_;
   double h_;
-  std::vector<float> compression_;   ///< dt D(v), v before the solve; after it, with the solve's velocities
-  std::vector<float> target_;        ///< the largest dt D allowed
-  std::vector<float> residual_;      ///< dt D(v + dt a(p)) - target
+  std::vector<float> excess_;        ///< dt D(v) of the velocities given, minus the largest allowed
+  std::vector<float> residual_;      ///< the same with the pressure's velocities
   std::vector<float> step_;          ///< relaxation / diagonal of dt^2 dD/dp
-  std::vector<float> pressure_, volume_pressure_;   ///< p, V p
+  std::vector<float> pressure_, previous_, volume_pressure_;  ///< p, p before the last extrapolation, V p
   std::vector<float> gradient_sum_;  ///< G, padded to lanes
   std::vector<float> mobility_, volume_;  ///< dt^2 V / m, V
   std::vector<float> displacement_;  ///< dt^2 V a(p), padded to lanes

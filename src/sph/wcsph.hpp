@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// One explicit step: p = max(0, c^2 rho_0 (delta - 1)) goes to particles.divergence_pressure and acts on the velocities
+/// One explicit step: p = max(0, c^2 rho_0 (delta - 1)) goes to particles.pressure and acts on the velocities
 /// by apply_pressure. Wants ArtificialViscosity with wave speed c before it. Returns the impulse that walls and cover
 /// gave [kg m s^-1].
 template <int Dim>

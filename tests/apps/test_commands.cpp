@@ -208,12 +208,16 @@ TEST_CASE("a run goes to its end, names its folder and can be asked about", "[co
 
 TEST_CASE("a run that is asked to stop ends after its step", "[commands]") {
   const Workplace place;
+  const auto signal = GENERATE(as<std::string>{}, "INT", "TERM");
   place.write("drop.toml", scene);
-  const std::string program = "'" SPINDRIFT_BINARY_DIR "/spindrift' run drop.toml -o long --until 1000000";
-  const std::string line = "cd '" + place.folder().string() + "' && { " + program +
-                           " >out 2>err & p=$!; until [ -s err ]; do sleep 0.05; done; kill -INT $p; wait $p; }";
-  const int status = std::system(("timeout 60 bash -c \"" + line + "\"").c_str());
+  place.write("stop.sh", "'" SPINDRIFT_BINARY_DIR
+                         "/spindrift' run drop.toml -o long --until 10000 --frames-per-second 0 >out 2>err &\n"
+                         "until [ -e long/scene.toml ] || ! kill -0 $!; do sleep 0.02; done\n"
+                         "kill -" +
+                             signal + " $!\nwait $!\n");
+  const int status = std::system(("cd '" + place.folder().string() + "' && timeout 60 bash stop.sh").c_str());
   REQUIRE(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 75);
+  CHECK(text_of(place.folder() / "err").find("stopped: ") != std::string::npos);
   CHECK(place.run("info long --json").out.find("\"status\": \"stopped\"") != std::string::npos);
 }

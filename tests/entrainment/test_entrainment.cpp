@@ -283,7 +283,7 @@ TEMPLATE_TEST_CASE_SIG("D2: the flux is Er whatever the spacing and the packing"
   CHECK(std::abs(taken / expected - 1) < std::max(0.02, 2 * standard_error));
 }
 
-TEMPLATE_TEST_CASE_SIG("Entrainment is the same with any number of threads, and a warm step allocates nothing",
+TEMPLATE_TEST_CASE_SIG("Entrainment is the same with any number of threads, and warm columns allocate nothing",
                        "[entrainment]", ((int Dim), Dim), 2, 3) {
   const Terrain<Dim> terrain = incline<Dim>(0.6);
   const double length = Dim == 2 ? 50 : 8;

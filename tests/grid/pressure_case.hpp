@@ -132,7 +132,8 @@ PressureCase<Dim> slope_case(const Index<Dim>& cells, double ratio) {
     const double fraction = std::clamp(height(c.grid.face_centre(axis, face)) + 0.5, 0.0, 1.0);
     c.open[axis][face] = fraction < 1e-3 ? 0 : fraction;
   });
-  c.set_velocity([&](int axis, const Vec<Dim>& x) { return 0.5 * std::sin(0.7 * x[0] + axis) * std::cos(0.3 * x[Dim - 1]); });
+  c.set_velocity(
+      [&](int axis, const Vec<Dim>& x) { return 0.5 * std::sin(0.7 * x[0] + axis) * std::cos(0.3 * x[Dim - 1]); });
   return c;
 }
 

@@ -17,7 +17,8 @@ double energy_left(int n, AdvectionScheme scheme) {
   options.scheme = scheme;
   options.pressure.tolerance = 1e-8;
   Suspension<2> air(grid, all_sides<2>(Side::closed), options);
-  air.set_velocity(swirl<2>(grid, [](double x, double z) { return std::sin(2 * pi * x) * std::sin(2 * pi * z) / (2 * pi); }));
+  air.set_velocity(
+      swirl<2>(grid, [](double x, double z) { return std::sin(2 * pi * x) * std::sin(2 * pi * z) / (2 * pi); }));
   const auto energy = [&] {
     double e = 0;
     for (const auto& u : air.velocity())
@@ -53,7 +54,8 @@ TEMPLATE_TEST_CASE_SIG("rows read in order and rows with look-ups agree", "[adve
   const MacGrid<Dim> grid = box_grid<Dim>(n, 2.0);
   Ground<Dim> ground(grid, 1.2);
   Field<Dim> distance(grid.nodes());
-  for_each_index<Dim>(grid.nodes(), [&](const Index<Dim>& i) { distance[i] = grid.node(i)[Dim - 1] - 0.55 + 0.2 * grid.node(i)[0]; });
+  for_each_index<Dim>(grid.nodes(),
+                      [&](const Index<Dim>& i) { distance[i] = grid.node(i)[Dim - 1] - 0.55 + 0.2 * grid.node(i)[0]; });
   ground.set(distance, 0, n);
   const FaceField<Dim> carrier = face_velocity<Dim>(grid, [](const Vec<Dim>& x) {
     Vec<Dim> u;
@@ -70,7 +72,7 @@ TEMPLATE_TEST_CASE_SIG("rows read in order and rows with look-ups agree", "[adve
   const AdvectionScheme scheme = GENERATE(AdvectionScheme::semi_lagrangian, AdvectionScheme::maccormack);
   const double dt = grid.dx * GENERATE(0.05, 0.6, 1.0);
   VelocityAdvection<Dim> advection(grid);
-  FaceField<Dim> a = face_velocity<Dim>(grid, [](const Vec<Dim>& x) { return Vec<Dim>((4 * x).array().sin()); }), b = a;
+  FaceField<Dim> a = face_velocity<Dim>(grid, [](const Vec<Dim>&x) { return Vec<Dim>((4 * x).array().sin()); }), b = a;
   const FaceField<Dim> before = a;
   advection.advect(a, {grid, ground, carrier, slow, area}, dt, scheme);
   advection.advect(b, {grid, ground, carrier, fast, area}, dt, scheme);
@@ -102,7 +104,8 @@ TEMPLATE_TEST_CASE_SIG("a uniform carrier shifts a linear field exactly, at any 
   const FaceField<Dim> area = make_face_field<Dim>(grid, 1.0);
   Vec<Dim> gradient;
   for (int k = 0; k < Dim; ++k) gradient[k] = 1 + k;
-  FaceField<Dim> u = face_velocity<Dim>(grid, [&](const Vec<Dim>& x) { return Vec<Dim>::Constant(gradient.dot(x)).eval(); });
+  FaceField<Dim> u =
+      face_velocity<Dim>(grid, [&](const Vec<Dim>& x) { return Vec<Dim>::Constant(gradient.dot(x)).eval(); });
   const double dt = GENERATE(0.5, 1.0, 5.0);
   VelocityAdvection<Dim>(grid).advect(u, {grid, ground, carrier, speeds, area}, dt, AdvectionScheme::maccormack);
   Index<Dim> middle;

@@ -42,46 +42,24 @@ std::vector<std::string> marked(PressureCase<Dim>& c) {
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("air shut in between core and bed is a pocket", "[components]", ((int Dim), Dim), 2, 3) {
-  PressureCase<Dim> c = drawn<Dim>({"........",
-                                    "..oooo..",
-                                    ".oo..oo.",
-                                    "###.####",
-                                    "########"}, Side::open);
-  CHECK(marked<Dim>(c) == std::vector<std::string>{"........",
-                                                   "..oooo..",
-                                                   ".ooppoo.",
-                                                   "###p####",
-                                                   "########"});
+  PressureCase<Dim> c = drawn<Dim>({"........", "..oooo..", ".oo..oo.", "###.####", "########"}, Side::open);
+  CHECK(marked<Dim>(c) == std::vector<std::string>{"........", "..oooo..", ".ooppoo.", "###p####", "########"});
 }
 
 TEMPLATE_TEST_CASE_SIG("air sealed in by solid alone is projected, not a pocket", "[components]", ((int Dim), Dim), 2,
                        3) {
-  const std::vector<std::string> rows{"......",
-                                      ".####.",
-                                      ".#..#.",
-                                      ".####."};
+  const std::vector<std::string> rows{"......", ".####.", ".#..#.", ".####."};
   PressureCase<Dim> c = drawn<Dim>(rows, Side::open);
   CHECK(marked<Dim>(c) == rows);
 }
 
 TEMPLATE_TEST_CASE_SIG("in a closed domain the largest component stays", "[components]", ((int Dim), Dim), 2, 3) {
-  PressureCase<Dim> c = drawn<Dim>({"....o..",
-                                    "....o..",
-                                    "oooo#..",
-                                    "...o###"}, Side::closed);
-  CHECK(marked<Dim>(c) == std::vector<std::string>{"....opp",
-                                                   "....opp",
-                                                   "oooo#pp",
-                                                   "pppo###"});
+  PressureCase<Dim> c = drawn<Dim>({"....o..", "....o..", "oooo#..", "...o###"}, Side::closed);
+  CHECK(marked<Dim>(c) == std::vector<std::string>{"....opp", "....opp", "oooo#pp", "pppo###"});
 }
 
 TEST_CASE("components join around corners, in any order of their runs", "[components]") {
-  const auto c = drawn<2>({".......",
-                           ".#####.",
-                           ".#...#.",
-                           ".#.#.#.",
-                           ".#.#.#.",
-                           "...#..."}, Side::closed);
+  const auto c = drawn<2>({".......", ".#####.", ".#...#.", ".#.#.#.", ".#.#.#.", "...#..."}, Side::closed);
   Components<2> components;
   components.find(c.kind, c.open, c.sides);
   REQUIRE(components.all().size() == 1);

@@ -16,8 +16,7 @@ double vortex(double x, double z) {
 }
 
 /// Largest change of velocity by confinement of strength 1 in 1 s.
-template <int Dim>
-double push(int n) {
+template <int Dim> double push(int n) {
   const MacGrid<Dim> grid = box_grid<Dim>(n);
   FaceField<Dim> u = swirl<Dim>(grid, vortex);
   const FaceField<Dim> before = u;
@@ -71,7 +70,9 @@ TEMPLATE_TEST_CASE_SIG("absent confinement is off to the bit, present it reports
     SuspensionOptions<Dim> options = exact_options<Dim>();
     options.confinement = strength;
     Suspension<Dim> air(grid, all_sides<Dim>(Side::closed), options);
-    air.set_velocity(swirl<Dim>(grid, [](double x, double z) { return std::sin(pi * x) * std::sin(2 * pi * z) + 0.3 * std::sin(2 * pi * x) * std::sin(pi * z); }));
+    air.set_velocity(swirl<Dim>(grid, [](double x, double z) {
+      return std::sin(pi * x) * std::sin(2 * pi * z) + 0.3 * std::sin(2 * pi * x) * std::sin(pi * z);
+    }));
     air.advance(0.02, {}, stages);
     return air;
   };
@@ -80,8 +81,7 @@ TEMPLATE_TEST_CASE_SIG("absent confinement is off to the bit, present it reports
   CHECK(off.passes("suspension.confinement") == 0);
   CHECK(on.passes("suspension.confinement") == 1);
   for (int axis = 0; axis < Dim; ++axis)
-    for (std::size_t f = 0; f < a.velocity()[axis].size(); ++f)
-      REQUIRE(a.velocity()[axis][f] == b.velocity()[axis][f]);
+    for (std::size_t f = 0; f < a.velocity()[axis].size(); ++f) REQUIRE(a.velocity()[axis][f] == b.velocity()[axis][f]);
   CHECK(a.budget().confinement.isZero());
   CHECK(c.budget().confinement.norm() > 0);
 }

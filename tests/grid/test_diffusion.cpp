@@ -9,8 +9,7 @@ using namespace spindrift::test;
 namespace {
 
 /// Variance along x of smoke over its mass.
-template <int Dim>
-double variance(const MacGrid<Dim>& grid, const Field<Dim>& smoke, int axis) {
+template <int Dim> double variance(const MacGrid<Dim>& grid, const Field<Dim>& smoke, int axis) {
   double mass = 0, mean = 0, square = 0;
   for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {
     const double x = grid.cell_centre(i)[axis];
@@ -19,13 +18,11 @@ double variance(const MacGrid<Dim>& grid, const Field<Dim>& smoke, int axis) {
   return square / mass - (mean / mass) * (mean / mass);
 }
 
-template <int Dim>
-FaceField<Dim> whole_areas(const MacGrid<Dim>& grid) {
+template <int Dim> FaceField<Dim> whole_areas(const MacGrid<Dim>& grid) {
   return make_face_field<Dim>(grid, grid.face_area());
 }
 
-template <int Dim>
-Field<Dim> gaussian(const MacGrid<Dim>& grid, double sigma) {
+template <int Dim> Field<Dim> gaussian(const MacGrid<Dim>& grid, double sigma) {
   Field<Dim> smoke(grid.cells);
   for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {
     smoke[i] = std::exp(-(grid.cell_centre(i) - Vec<Dim>::Constant(0.5)).squaredNorm() / (2 * sigma * sigma));
@@ -71,7 +68,9 @@ TEMPLATE_TEST_CASE_SIG("smoke does not diffuse through closed faces", "[diffusio
   const MacGrid<Dim> grid = box_grid<Dim>(4);
   const Ground<Dim> ground(grid, 1.2);
   FaceField<Dim> area = whole_areas(grid);
-  for_each_index<Dim>(grid.faces(0), [&](const Index<Dim>& i) { if (i[0] == 2) area[0][i] = 0; });
+  for_each_index<Dim>(grid.faces(0), [&](const Index<Dim>& i) {
+    if (i[0] == 2) area[0][i] = 0;
+  });
   Field<Dim> smoke(grid.cells);
   for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) { smoke[i] = i[0] < 2 ? 1 : 0; });
   const Field<Dim> before = smoke;
@@ -105,7 +104,8 @@ TEMPLATE_TEST_CASE_SIG("viscosity keeps momentum and a uniform stream, and damps
       grid, [](const Vec<Dim>& x) { return Vec<Dim>((2 + std::cos(k * x[Dim - 1])) * Vec<Dim>::Unit(0)); });
   const double before = momentum(wave), top = wave[0][std::size_t{0}] - 2;
   const double viscosity = 1e-2;
-  for (int step = 0; step < 100; ++step) diffusion.diffuse_velocity(wave, Field<Dim>(grid.cells), area, grid, ground, viscosity, 0.05);
+  for (int step = 0; step < 100; ++step)
+    diffusion.diffuse_velocity(wave, Field<Dim>(grid.cells), area, grid, ground, viscosity, 0.05);
   CHECK(wave[0][std::size_t{0}] - 2 == Approx(top * std::exp(-viscosity * k * k * 5)).epsilon(0.01));
   FaceField<Dim> again = face_velocity<Dim>(
       grid, [](const Vec<Dim>& x) { return Vec<Dim>((2 + std::cos(k * x[Dim - 1])) * Vec<Dim>::Unit(0)); });
@@ -113,4 +113,6 @@ TEMPLATE_TEST_CASE_SIG("viscosity keeps momentum and a uniform stream, and damps
   CHECK(momentum(again) == Approx(before).epsilon(1e-12));
 }
 
-TEST_CASE("diffusion that has not been used holds nothing", "[diffusion]") { CHECK(Diffusion<2>().bytes() == 0); }
+TEST_CASE("diffusion that has not been used holds nothing", "[diffusion]") {
+  CHECK(Diffusion<2>().bytes() == 0);
+}

@@ -16,7 +16,8 @@ struct Preconditioner {
   PoissonOperator<Dim> poisson;
   Multigrid<Dim> multigrid;
 
-  explicit Preconditioner(const PressureCase<Dim>& c_) : c(c_), poisson(c.grid.cells, c.sides), multigrid(c.grid.cells) {
+  explicit Preconditioner(const PressureCase<Dim>& c_)
+      : c(c_), poisson(c.grid.cells, c.sides), multigrid(c.grid.cells) {
     poisson.build(c.density, c.open, c.kind);
     multigrid.build(poisson);
   }

@@ -77,8 +77,7 @@ TEMPLATE_TEST_CASE_SIG("projecting twice is projecting once", "[projection]", ((
   CHECK(change <= 1e-8 * speed);
 }
 
-TEMPLATE_TEST_CASE_SIG("stratified fluid at rest stays at rest under gravity", "[projection]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("stratified fluid at rest stays at rest under gravity", "[projection]", ((int Dim), Dim), 2, 3) {
   const Side top = GENERATE(Side::closed, Side::open);
   const double ratio = GENERATE(1.0, 10.0, 1e4);
   const Index<Dim> cells = cube<Dim>(Dim == 2 ? 33 : 14);
@@ -146,8 +145,8 @@ TEMPLATE_TEST_CASE_SIG("a moving core pushes air out through an open side", "[pr
   CHECK(kept == pushed);
 }
 
-TEMPLATE_TEST_CASE_SIG("flux that a sealed box cannot match stays as uniform divergence and is reported", "[projection]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("flux that a sealed box cannot match stays as uniform divergence and is reported",
+                       "[projection]", ((int Dim), Dim), 2, 3) {
   PressureCase<Dim> c(cube<Dim>(8), 1.0, all_sides<Dim>(Side::closed));
   for_each_index<Dim>(c.grid.cells, [&](const Index<Dim>& i) {
     if (i[0] < 2) c.kind[i] = CellKind::core;
@@ -255,8 +254,8 @@ TEMPLATE_TEST_CASE_SIG("a step leaves nothing behind but the pressure", "[projec
   warm.project(used);
   fresh.project(unused);
   CHECK(same_bits<Dim>(warm.u, fresh.u));
-  CHECK(std::equal(used.pressure().values().begin(), used.pressure().values().end(),
-                   unused.pressure().values().begin()));
+  CHECK(
+      std::equal(used.pressure().values().begin(), used.pressure().values().end(), unused.pressure().values().begin()));
 }
 
 TEMPLATE_TEST_CASE_SIG("the same bits with any number of threads", "[projection]", ((int Dim), Dim), 2, 3) {

@@ -11,7 +11,8 @@ using std::numbers::pi;
 namespace {
 
 template <int Dim>
-FaceField<Dim> areas(const MacGrid<Dim>& grid, const Ground<Dim>& ground, const std::array<std::array<Side, 2>, Dim>& sides) {
+FaceField<Dim> areas(const MacGrid<Dim>& grid, const Ground<Dim>& ground,
+                     const std::array<std::array<Side, 2>, Dim>& sides) {
   FaceField<Dim> area = make_face_field<Dim>(grid);
   for (int axis = 0; axis < Dim; ++axis) {
     for_each_index<Dim>(grid.faces(axis), [&](const Index<Dim>& i) {
@@ -23,15 +24,13 @@ FaceField<Dim> areas(const MacGrid<Dim>& grid, const Ground<Dim>& ground, const 
   return area;
 }
 
-template <int Dim>
-double sum(const Field<Dim>& field) {
+template <int Dim> double sum(const Field<Dim>& field) {
   long double s = 0;
   for (std::size_t n = 0; n < field.size(); ++n) s += static_cast<long double>(field[n]);
   return static_cast<double>(s);
 }
 
-template <int Dim>
-double least(const Field<Dim>& field) {
+template <int Dim> double least(const Field<Dim>& field) {
   double m = field[std::size_t{0}];
   for (std::size_t n = 0; n < field.size(); ++n) m = std::min(m, field[n]);
   return m;

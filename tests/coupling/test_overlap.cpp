@@ -1,0 +1,144 @@
+#include <catch2/catch.hpp>
+
+#include "box.hpp"
+#include "coupling/core_cells.hpp"
+#include "coupling/overlap.hpp"
+#include "sph/kernels.hpp"
+
+using namespace spindrift;
+using namespace spindrift::testing;
+
+namespace {
+
+constexpr double d = 0.105;
+
+/// Snow from z = 0 (a closed floor) to `rows` spacings, several spacings wide.
+template <int Dim>
+DenseFlow<Dim> block(const Vec<Dim>& shift, int rows) {
+  DenseFlowOptions options;
+  options.support_radius = 2 * d;
+  DenseFlow<Dim> dense(options);
+  Index<Dim> shape;
+  shape.fill(Dim == 2 ? 24 : 10);
+  shape[Dim - 1] = rows;
+  for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
+    Vec<Dim> x;
+    for (int k = 0; k < Dim; ++k) x[k] = d * (i[k] + 0.5);
+    add_particle<Dim>(dense.particles, Vec<Dim>(x + shift), Vec<Dim>::Unit(0), 300 * std::pow(d, Dim), std::pow(d, Dim));
+  });
+  return dense;
+}
+
+template <int Dim>
+Walls<Dim> floor_at(double z) {
+  Walls<Dim> walls;
+  walls.domain = {Vec<Dim>(Vec<Dim>::Constant(-50)), Vec<Dim>(Vec<Dim>::Constant(50))};
+  walls.domain.lower[Dim - 1] = z;
+  walls.sides[Dim - 1][0] = Side::closed;
+  return walls;
+}
+
+/// Rows (by height) of overlap particles in the middle of the block, away from its flanks.
+template <int Dim>
+std::vector<int> overlap_rows(const Vec<Dim>& shift, int rows, bool with_floor) {
+  DenseFlow<Dim> dense = block<Dim>(shift, rows);
+  const Walls<Dim> walls = floor_at<Dim>(with_floor ? shift[Dim - 1] : -40);
+  Stages stages;
+  dense.sort_and_find_neighbours(walls, {}, stages);
+  std::vector<std::uint8_t> overlap;
+  classify_overlap<Dim>(overlap, dense, {}, walls, 0.8, interior_number_density<Dim>(d, 2 * d));
+  std::vector<int> found;
+  for (std::size_t i = 0; i < dense.particles.size(); ++i) {
+    const Vec<Dim> x = (dense.particles.position[i] - shift) / d;
+    bool middle = true;
+    for (int k = 0; k + 1 < Dim; ++k) middle &= x[k] > 3 && x[k] < (Dim == 2 ? 21 : 7);
+    if (middle && overlap[i]) found.push_back(static_cast<int>(x[Dim - 1]));
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("C10: the overlap region is the surface row, not the underside", "[coupling]", ((int Dim), Dim), 2,
+                       3) {
+  CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 8, true) == std::vector<int>{7});
+  CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 8, false) == std::vector<int>{0, 7});  // without ground: both faces
+}
+
+TEMPLATE_TEST_CASE_SIG("C10: the class does not depend on where the snow lies", "[coupling]", ((int Dim), Dim), 2, 3) {
+  const double fraction = GENERATE(0.1, 0.37, 0.5, 0.93);
+  CHECK(overlap_rows<Dim>(Vec<Dim>(Vec<Dim>::Constant(fraction * d)), 8, true) == std::vector<int>{7});
+}
+
+TEMPLATE_TEST_CASE_SIG("C10: snow that flies alone is overlap, no snow has none", "[coupling]", ((int Dim), Dim), 2, 3) {
+  DenseFlowOptions options;
+  options.support_radius = 2 * d;
+  DenseFlow<Dim> dense(options);
+  const Walls<Dim> walls = floor_at<Dim>(-40);
+  Stages stages;
+  std::vector<std::uint8_t> overlap(3, 1);
+  dense.sort_and_find_neighbours(walls, {}, stages);
+  classify_overlap<Dim>(overlap, dense, {}, walls, 0.8, interior_number_density<Dim>(d, 2 * d));
+  CHECK(overlap.empty());
+  add_particle<Dim>(dense.particles, Vec<Dim>::Zero(), Vec<Dim>::Zero(), 1.0, std::pow(d, Dim));
+  dense.sort_and_find_neighbours(walls, {}, stages);
+  classify_overlap<Dim>(overlap, dense, {}, walls, 0.8, interior_number_density<Dim>(d, 2 * d));
+  CHECK(overlap == std::vector<std::uint8_t>{1});
+}
+
+TEMPLATE_TEST_CASE_SIG("C10, control: grid points coarser than the support radius would miss the snow", "[coupling]",
+                       ((int Dim), Dim), 2, 3) {
+  // n at the nodes of a 1 m grid through a full block: most nodes see no particle, so the class must be a particle's.
+  const double h = 2 * d;
+  int seen = 0, nodes = 0;
+  for (double offset = 0; offset < 1; offset += 0.05) {
+    double n = 0;
+    Vec<Dim> node = Vec<Dim>::Constant(offset);
+    Index<Dim> shape;
+    shape.fill(3);
+    for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
+      Vec<Dim> x;
+      for (int k = 0; k < Dim; ++k) x[k] = i[k] * 1.0;
+      n += number_density_kernel((x - node).norm(), h);
+    });
+    seen += n > 0;
+    ++nodes;
+  }
+  CHECK(seen < nodes / 2);
+}
+
+TEMPLATE_TEST_CASE_SIG("A core cell is at least half full of snow outside overlap", "[coupling]", ((int Dim), Dim), 2, 3) {
+  Suspension<Dim> air = air_box<Dim>(4, 1, 1.2);
+  Particles<Dim> particles;
+  const auto fill = [&](double x0, double share, const Vec<Dim>& v) {
+    for (int i = 0; i < 10; ++i) {
+      Vec<Dim> x = Vec<Dim>::Constant(1.5);
+      x[0] = x0 + 0.05 * i;
+      add_particle<Dim>(particles, x, v, 1.0 + i, share / 10);
+    }
+  };
+  fill(0.2, 0.51, Vec<Dim>::Unit(0));
+  fill(1.2, 0.49, Vec<Dim>::Unit(0));
+  fill(2.2, 0.80, 3 * Vec<Dim>::Unit(0));
+  std::vector<std::uint8_t> overlap(particles.size(), 0);
+  std::fill(overlap.begin() + 20, overlap.begin() + 24, std::uint8_t{1});
+  CoreCells<Dim> core;
+  core.find(particles, overlap, air);
+  REQUIRE(core.cells().size() == 1);
+  CHECK(core.cells()[0].cell[0] == 0);
+  CHECK(core.cells()[0].mass == Approx(55));
+
+  core.cells()[0].impulse = 11 * Vec<Dim>::Unit(Dim - 1);
+  core.cells()[0].adhered = 5.5;
+  core.cells()[0].adhered_momentum = 2 * Vec<Dim>::Unit(0);
+  const Vec<Dim> before = particle_momentum(particles);
+  double adhered = 0;
+  const Vec<Dim> given = core.give_back(particles, adhered);
+  CHECK(adhered == 5.5);
+  CHECK((particle_momentum(particles) - before - given).norm() < 1e-12);
+  CHECK((given - 11 * Vec<Dim>::Unit(Dim - 1) - 2 * Vec<Dim>::Unit(0)).norm() == 0);
+  CHECK(particles.mass[0] == Approx(1.1));
+  CHECK(particles.mass[15] == 6);
+}

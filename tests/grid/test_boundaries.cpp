@@ -1,0 +1,122 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "suspension_fixture.hpp"
+
+using namespace spindrift;
+using namespace spindrift::test;
+using std::numbers::pi;
+
+TEMPLATE_TEST_CASE_SIG("a moving core pushes air, and air, core and walls exchange momentum without loss",
+                       "[suspension]", ((int Dim), Dim), 2, 3) {
+  const bool moving = GENERATE(true, false);
+  const int n = 12;
+  const MacGrid<Dim> grid = box_grid<Dim>(n, 6.0);
+  SuspensionOptions<Dim> options = exact_options<Dim>();
+  options.moving_core = moving;
+  Suspension<Dim> air(grid, all_sides<Dim>(Side::closed), options);
+  air.set_velocity(
+      swirl<Dim>(grid, [](double x, double z) { return 0.3 * std::sin(pi * x / 6) * std::sin(pi * z / 6); }));
+  std::vector<CoreCell<Dim>> cores(2);
+  for (int k = 0; k < 2; ++k) {
+    cores[static_cast<std::size_t>(k)].cell.fill(5);
+    cores[static_cast<std::size_t>(k)].cell[0] += k;
+    cores[static_cast<std::size_t>(k)].velocity = 4 * Vec<Dim>::Unit(0);
+  }
+  const Vec<Dim> before = air.momentum();
+  const double dt = 0.01;
+  Stages stages;
+  air.advance(dt, cores, stages);
+  const auto& b = air.budget();
+  Vec<Dim> core = Vec<Dim>::Zero(), walls = Vec<Dim>::Zero();
+  for (const auto& c : cores) core += c.impulse;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {
+      const double push = air.pressure()[i] * grid.face_area() * dt;
+      if (i[axis] == 0) walls[axis] += push;
+      if (i[axis] == n - 1) walls[axis] -= push;
+    });
+  }
+  CHECK((air.momentum() - before - b.advection + core - walls).norm() < 1e-9);
+  CHECK((core - (b.core_pressure - b.core)).norm() < 1e-12);
+  CHECK(core[0] * (moving ? -1 : 1) > 0);
+  Index<Dim> ahead;
+  ahead.fill(5);
+  ahead[0] = 7;
+  CHECK(air.velocity()[0][ahead] == (moving ? 4 : 0));
+  if (moving) CHECK(air.velocity()[0][shifted<Dim>(ahead, 0, 1)] > 0.1);
+  for (int axis = 0; axis < Dim; ++axis) CHECK(air.active_faces()[axis][cores[0].cell] == 0);
+  CHECK(air.active_faces()[0][shifted<Dim>(ahead, 0, 1)] == 1);
+
+  air.advance(dt, {}, stages);  // uncovered cells start with the core's velocity
+  CHECK(air.active_faces()[0][cores[0].cell] == 1);
+  CHECK(air.max_speed() > 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("smoke leaves a cell that becomes core, or adheres", "[suspension]", ((int Dim), Dim), 2, 3) {
+  const MacGrid<Dim> grid = box_grid<Dim>(5);
+  Suspension<Dim> air(grid, all_sides<Dim>(Side::closed), exact_options<Dim>());
+  Field<Dim> smoke(grid.cells);
+  Index<Dim> middle;
+  middle.fill(2);
+  smoke[middle] = 1.2;
+  Stages stages;
+  std::vector<CoreCell<Dim>> one(1);
+  one[0].cell = middle;
+  air.set_smoke_mass(smoke);
+  air.advance(0.01, one, stages);
+  CHECK(one[0].adhered == 0);
+  CHECK(air.smoke_mass()[middle] == 0);
+  CHECK(air.smoke_mass()[shifted<Dim>(middle, 0, 1)] == Approx(1.2 / (2 * Dim)));
+  CHECK(air.total_smoke() == Approx(1.2).epsilon(1e-14));
+
+  std::vector<CoreCell<Dim>> block;
+  for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {
+    if ((i[0] - 2) * (i[0] - 2) <= 1) {
+      CoreCell<Dim> core;
+      core.cell = i;
+      block.push_back(core);
+    }
+  });
+  air.set_smoke_mass(smoke);
+  air.set_velocity(make_face_field<Dim>(grid, 2.0));
+  air.advance(0.01, block, stages);
+  double adhered = 0;
+  for (const auto& core : block) {
+    adhered += core.adhered;
+    if (core.cell == middle) CHECK(core.adhered_momentum[0] == Approx(1.2 * 2));
+  }
+  CHECK(adhered == Approx(1.2));
+  CHECK(air.total_smoke() == 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("a uniform stream along a slope through the grid stays (B13)", "[suspension]", ((int Dim), Dim),
+                       2, 3) {
+  const double angle = GENERATE(0.0, 15.0, 30.0, 45.0) * pi / 180;
+  const int n = Dim == 2 ? 40 : 16;
+  const MacGrid<Dim> grid = box_grid<Dim>(n, 10.0);
+  SuspensionOptions<Dim> options = exact_options<Dim>();
+  options.pressure.tolerance = 1e-8;
+  auto sides = all_sides<Dim>(Side::open);
+  if (Dim == 3) sides[1].fill(Side::closed);
+  Suspension<Dim> air(grid, sides, options);
+  const Vec<Dim> along = std::cos(angle) * Vec<Dim>::Unit(0) - std::sin(angle) * up<Dim>();
+  const Vec<Dim> normal = std::sin(angle) * Vec<Dim>::Unit(0) + std::cos(angle) * up<Dim>();
+  Field<Dim> distance(grid.nodes());
+  for_each_index<Dim>(grid.nodes(),
+                      [&](const Index<Dim>& i) { distance[i] = normal.dot(grid.node(i) - Vec<Dim>::Constant(4.93)); });
+  air.set_ground(distance);
+  air.set_velocity(face_velocity<Dim>(grid, [&](const Vec<Dim>&) { return along; }));
+  const double before = air.momentum().dot(along);
+  Stages stages;
+  const int steps = n;  // one length of the box
+  for (int step = 0; step < steps; ++step) air.advance(grid.dx, {}, stages);
+  CHECK(air.momentum().dot(along) == Approx(before).epsilon(0.01));
+  double worst = 0;
+  for (int axis = 0; axis < Dim; ++axis)
+    for (std::size_t f = 0; f < air.velocity()[axis].size(); ++f)
+      if (air.ground().open()[axis][f] > 0.3 && air.active_faces()[axis][f])
+        worst = std::max(worst, std::abs(air.velocity()[axis][f] - along[axis]));
+  CHECK(worst < 0.05);
+}
