@@ -12,8 +12,8 @@ struct Exchange {
   ParticleSources<Dim> on_particles;        ///< one entry a particle of the dense flow
   GridSources<Dim> on_grid;                 ///< only what was touched
   /// Momentum of smoke that is made or sticks next to faces with a given velocity u_f (closed, or beside the core): the
-  /// face keeps what moves its new mass at u_f, ground and core take the rest [kg m s^-1].
-  Vec<Dim> kept_by_fixed_faces = Vec<Dim>::Zero(), on_fixed_faces = Vec<Dim>::Zero();
+  /// face keeps what moves its new mass at u_f, ground and core take the rest, which stands here [kg m s^-1].
+  Vec<Dim> on_fixed_faces = Vec<Dim>::Zero();
   double generated = 0;                     ///< smoke made from particles [kg]
   double adhered = 0;                       ///< smoke that stuck to particles [kg]
 
@@ -21,7 +21,6 @@ struct Exchange {
     on_particles.momentum.assign(n_particles, Vec<Dim>::Zero());
     on_particles.mass.assign(n_particles, 0.0);
     on_grid.clear();
-    kept_by_fixed_faces.setZero();
     on_fixed_faces.setZero();
     generated = adhered = 0;
   }
@@ -40,7 +39,7 @@ void apply_sources(Particles<Dim>& particles, const ParticleSources<Dim>& source
 /// Momentum that the grid gains, Suspension::apply's result [kg m s^-1].
 template <int Dim>
 Vec<Dim> momentum_on_grid(const Exchange<Dim>& exchange) {
-  Vec<Dim> sum = exchange.kept_by_fixed_faces;
+  Vec<Dim> sum = Vec<Dim>::Zero();
   for (int axis = 0; axis < Dim; ++axis)
     for (const PointSource& source : exchange.on_grid.momentum[axis]) sum[axis] += source.amount;
   return sum;

@@ -10,33 +10,26 @@ namespace {
 /// (1 - e^-x) / x, right also at x = 0.
 double relaxed_share(double x) { return x > 1e-12 ? -std::expm1(-x) / x : 1 - x / 2; }
 
-/// The two faces of a cell along one axis, and the air's velocity component there as drag and lift left it.
-template <int Dim>
-struct FacePair {
-  std::array<std::size_t, 2> face;
-  std::array<bool, 2> active;
-  std::array<double, 2> velocity;  ///< 0 on closed faces [m s^-1]
-
-  FacePair(OverlapRegion<Dim>& region, const Suspension<Dim>& suspension, std::size_t cell, int axis) {
-    const MacGrid<Dim>& grid = suspension.grid();
-    const Index<Dim> at = unflat<Dim>(cell, grid.cells);
-    for (std::size_t side = 0; side < 2; ++side) {
-      face[side] = flat<Dim>(shifted<Dim>(at, axis, static_cast<int>(side)), grid.faces(axis));
-      active[side] = suspension.active_faces()[axis][face[side]] != 0;
-      if (active[side]) {
-        const std::uint32_t s = region.faces[axis].slot(face[side]);
-        if (s >= region.face_velocity[axis].size()) {
-          region.face_velocity[axis].resize(s + 1, suspension.velocity()[axis][face[side]]);
-          region.face_momentum[axis].resize(s + 1, 0.0);
-        }
-        velocity[side] = region.face_velocity[axis][s];
-      } else {
-        velocity[side] =
-            suspension.face_mass(axis, face[side]) > 0 ? suspension.velocity()[axis][face[side]] : 0;
-      }
-    }
-  }
+/// A face of a cell that takes part in the exchange.
+struct CellFace {
+  bool closed = false, active = false;
+  std::uint32_t slot = 0;  ///< in the region's faces, where the face is not closed
+  double velocity = 0;     ///< of the air, as drag and lift left it; 0 on closed faces [m s^-1]
 };
+
+template <int Dim>
+CellFace cell_face(OverlapRegion<Dim>& region, const Suspension<Dim>& suspension, std::size_t cell, int axis, int side) {
+  const MacGrid<Dim>& grid = suspension.grid();
+  const std::size_t face =
+      flat<Dim>(shifted<Dim>(unflat<Dim>(cell, grid.cells), axis, side), grid.faces(axis));
+  if (suspension.face_mass(axis, face) <= 0) return {.closed = true};
+  const std::uint32_t slot = region.faces[axis].slot(face);
+  if (slot >= region.face_velocity[axis].size()) {
+    region.face_velocity[axis].resize(slot + 1, suspension.velocity()[axis][face]);
+    region.face_momentum[axis].resize(slot + 1, 0.0);
+  }
+  return {false, suspension.active_faces()[axis][face] != 0, slot, region.face_velocity[axis][slot]};
+}
 
 /// Turns `dm` of the region's particle k into smoke of the cells around it, at the particle's velocity.
 template <int Dim>
@@ -68,18 +61,15 @@ void book_cells(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Suspe
     exchange.adhered += stuck;
     exchange.on_grid.smoke.push_back({cell, made - stuck});
     for (int axis = 0; axis < Dim; ++axis) {
-      const FacePair<Dim> pair(region, suspension, cell, axis);
-      cells.taken_momentum[axis][s] = per_swept * 0.5 * (pair.velocity[0] + pair.velocity[1]);
+      const std::array<CellFace, 2> faces{cell_face(region, suspension, cell, axis, 0),
+                                          cell_face(region, suspension, cell, axis, 1)};
+      cells.taken_momentum[axis][s] = per_swept * 0.5 * (faces[0].velocity + faces[1].velocity);
       // A face's control volume holds half of each cell beside it, so each face takes part with half of what moves.
-      for (std::size_t side = 0; side < 2; ++side) {
-        const double gained = 0.5 * (cells.momentum[axis][s] - stuck * pair.velocity[side]);
-        if (pair.active[side]) {
-          region.face_momentum[axis][region.faces[axis].slot(pair.face[side])] += gained;
-        } else {
-          const double kept = 0.5 * (made - stuck) * pair.velocity[side];
-          exchange.kept_by_fixed_faces[axis] += kept;
-          exchange.on_fixed_faces[axis] += gained - kept;
-        }
+      for (const CellFace& face : faces) {
+        const double gained = 0.5 * (cells.momentum[axis][s] - stuck * face.velocity);
+        const double kept = face.active ? gained : 0.5 * (made - stuck) * face.velocity;
+        if (!face.closed) region.face_momentum[axis][face.slot] += kept;
+        exchange.on_fixed_faces[axis] += gained - kept;
       }
     }
   }

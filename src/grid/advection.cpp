@@ -8,13 +8,15 @@ namespace {
 
 /// How far in memory the neighbours of a point lie along each axis, below and above; 0 where the domain ends, so that
 /// values go on constant.
-template <int Dim> struct Reach {
+template <int Dim>
+struct Reach {
   const double* point;
   std::array<std::ptrdiff_t, Dim> low, high;
 };
 
 /// The surroundings of face `i` of `axis` in the lattice of velocity component `component`.
-template <int Dim> Reach<Dim> reach(const Field<Dim>& u, int component, int axis, const Index<Dim>& i) {
+template <int Dim>
+Reach<Dim> reach(const Field<Dim>& u, int component, int axis, const Index<Dim>& i) {
   const Index<Dim>& shape = u.shape();
   Reach<Dim> r;
   Index<Dim> base = i;
@@ -29,10 +31,12 @@ template <int Dim> Reach<Dim> reach(const Field<Dim>& u, int component, int axis
 }
 
 /// Reads around a face of axis `Axis`, T at a time. Displacements are in cells.
-template <int Dim, int Axis, class T> struct Near {
+template <int Dim, int Axis, class T>
+struct Near {
   /// Linear interpolation at displacement d, |d_k| <= 1, of a field on the face's own lattice; p = r.point + some
   /// faces.
-  template <int K = Dim - 1> static T interpolate(const double* p, const Reach<Dim>& r, const std::array<T, Dim>& d) {
+  template <int K = Dim - 1>
+  static T interpolate(const double* p, const Reach<Dim>& r, const std::array<T, Dim>& d) {
     if constexpr (K < 0) {
       return load<T>(p);
     } else {
@@ -59,7 +63,8 @@ template <int Dim, int Axis, class T> struct Near {
   }
 
   /// across() at d = 0.
-  template <int Other> static T mean(const double* p, const Reach<Dim>& r) {
+  template <int Other>
+  static T mean(const double* p, const Reach<Dim>& r) {
     const double *below = p - r.low[Axis], *above = p + r.high[Other];
     return 0.25 * ((load<T>(p) + load<T>(below)) + (load<T>(above) + load<T>(above - r.low[Axis])));
   }
@@ -68,7 +73,8 @@ template <int Dim, int Axis, class T> struct Near {
     T low, high;
   };
   /// Least and largest of the values that interpolate() weights at d.
-  template <int K = Dim - 1> static Range range(const double* p, const Reach<Dim>& r, const std::array<T, Dim>& d) {
+  template <int K = Dim - 1>
+  static Range range(const double* p, const Reach<Dim>& r, const std::array<T, Dim>& d) {
     if constexpr (K < 0) {
       const T x = load<T>(p);
       return {x, x};
@@ -104,7 +110,8 @@ template <int Dim, int Axis, class T> struct Near {
   }
 
  private:
-  template <int K, class F> static void component(F&& f) {
+  template <int K, class F>
+  static void component(F&& f) {
     if constexpr (K < Dim) {
       f.template operator()<K>();
       component<K + 1>(f);
@@ -113,7 +120,8 @@ template <int Dim, int Axis, class T> struct Near {
 };
 
 /// Advects faces of axis Axis; everything they need is on hand.
-template <int Dim, int Axis> struct Faces {
+template <int Dim, int Axis>
+struct Faces {
   const AdvectionFrame<Dim>& frame;
   const FaceField<Dim>& u;
   const FaceField<Dim>& forward;  ///< u^ of the correcting pass
@@ -168,7 +176,8 @@ template <int Dim, int Axis> struct Faces {
 };
 
 /// Whether nothing in the row at `start` and the rows around it moves more than a cell.
-template <int Dim> bool slow(const AdvectionFrame<Dim>& frame, const Index<Dim>& start, double dt) {
+template <int Dim>
+bool slow(const AdvectionFrame<Dim>& frame, const Index<Dim>& start, double dt) {
   Index<Dim> box;
   box.fill(3);
   box[0] = 1;
@@ -238,12 +247,14 @@ void VelocityAdvection<Dim>::advect(FaceField<Dim>& u, const AdvectionFrame<Dim>
   for (std::size_t axis = 0; axis < Dim; ++axis) u[axis].swap(result[axis]);
 }
 
-template <int Dim> void VelocityAdvection<Dim>::clear_deep(const Ground<Dim>& ground, int begin, int end) {
+template <int Dim>
+void VelocityAdvection<Dim>::clear_deep(const Ground<Dim>& ground, int begin, int end) {
   ground.clear_deep(forward_, begin, end);
   ground.clear_deep(result_, begin, end);
 }
 
-template <int Dim> std::size_t VelocityAdvection<Dim>::bytes() const {
+template <int Dim>
+std::size_t VelocityAdvection<Dim>::bytes() const {
   std::size_t n = 0;
   for (std::size_t axis = 0; axis < Dim; ++axis) n += forward_[axis].bytes() + result_[axis].bytes();
   return n;

@@ -12,10 +12,12 @@ namespace spindrift {
 enum class AdvectionScheme { semi_lagrangian, maccormack };
 
 /// Largest |u_k| in each row of the faces of each axis [m/s].
-template <int Dim> using RowSpeeds = std::array<std::vector<double>, Dim>;
+template <int Dim>
+using RowSpeeds = std::array<std::vector<double>, Dim>;
 
 /// Where one call of advect() takes place.
-template <int Dim> struct AdvectionFrame {
+template <int Dim>
+struct AdvectionFrame {
   const MacGrid<Dim>& grid;
   const Ground<Dim>& ground;      ///< only faces in its rows are looked at
   const FaceField<Dim>& carrier;  ///< velocity that carries [m/s], with sane values in the ground's layers
@@ -23,7 +25,8 @@ template <int Dim> struct AdvectionFrame {
   const FaceField<Dim>& flow_area;  ///< only faces with a positive one are advected, the others keep their value
 };
 
-template <int Dim> class VelocityAdvection {
+template <int Dim>
+class VelocityAdvection {
  public:
   explicit VelocityAdvection(const MacGrid<Dim>& grid);
 

@@ -6,7 +6,8 @@ namespace spindrift {
 namespace {
 
 /// Calls f(flat number, index) for the cells that have neighbours on all sides.
-template <int Dim, class F> void for_each_inner_cell(const Field<Dim>& field, F&& f) {
+template <int Dim, class F>
+void for_each_inner_cell(const Field<Dim>& field, F&& f) {
   const Index<Dim> shape = field.shape();
   parallel_for(
       field.n_rows(),
@@ -87,7 +88,8 @@ void Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area,
   }
 }
 
-template <int Dim> std::size_t Confinement<Dim>::bytes() const {
+template <int Dim>
+std::size_t Confinement<Dim>::bytes() const {
   std::size_t n = size_.bytes() + inner_.bytes();
   for (const auto& f : centre_) n += f.bytes();
   for (const auto& f : curl_) n += f.bytes();

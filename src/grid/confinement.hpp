@@ -8,7 +8,8 @@
 namespace spindrift {
 
 /// Holds memory only once it has been used.
-template <int Dim> class Confinement {
+template <int Dim>
+class Confinement {
  public:
   /// du = dt strength dx (N x omega),   N = grad |omega| / |grad |omega||
   /// with omega and N at cell centres (central differences), on the faces with a flow area whose two cells have open

@@ -4,7 +4,8 @@ namespace spindrift {
 namespace {
 
 /// Calls f(axis, face, neighbour cell, side) for the faces of a cell that lie inside the domain; side 0 below, 1 above.
-template <int Dim, class F> void for_each_neighbour(const Index<Dim>& cell, const Index<Dim>& shape, F&& f) {
+template <int Dim, class F>
+void for_each_neighbour(const Index<Dim>& cell, const Index<Dim>& shape, F&& f) {
   for (int axis = 0; axis < Dim; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const Index<Dim> other = shifted<Dim>(cell, axis, 2 * side - 1);
@@ -121,16 +122,15 @@ Vec<Dim> CoreBoundary<Dim>::add_pressure(std::span<CoreCell<Dim>> cores, const F
   Vec<Dim> total = Vec<Dim>::Zero();
   for (CoreCell<Dim>& core : cores) {
     if (kind[core.cell] != CellKind::core) continue;
-    for_each_neighbour<Dim>(core.cell, kind.shape(),
-                            [&](int axis, const Index<Dim>& face, const Index<Dim>& other, int side) {
-                              if (kind[other] != CellKind::open) return;
-                              const double push = pressure[other] * face_area * ground.open()[axis][face] * dt;
-                              const double face_mass =
-                                  ground.air_mass()[axis][face] + smoke_of_face<Dim>(smoke, axis, face);
-                              const double on_core = moving ? push - face_mass * push / core.mass : push;
-                              core.impulse[axis] += side == 0 ? on_core : -on_core;
-                              total[axis] += side == 0 ? on_core : -on_core;
-                            });
+    for_each_neighbour<Dim>(
+        core.cell, kind.shape(), [&](int axis, const Index<Dim>& face, const Index<Dim>& other, int side) {
+          if (kind[other] != CellKind::open) return;
+          const double push = pressure[other] * face_area * ground.open()[axis][face] * dt;
+          const double face_mass = ground.air_mass()[axis][face] + smoke_of_face<Dim>(smoke, axis, face);
+          const double on_core = moving ? push - face_mass * push / core.mass : push;
+          core.impulse[axis] += side == 0 ? on_core : -on_core;
+          total[axis] += side == 0 ? on_core : -on_core;
+        });
   }
   return total;
 }

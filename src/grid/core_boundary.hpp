@@ -11,7 +11,8 @@
 namespace spindrift {
 
 /// A cell filled by the dense core.
-template <int Dim> struct CoreCell {
+template <int Dim>
+struct CoreCell {
   Index<Dim> cell{};
   Vec<Dim> velocity = Vec<Dim>::Zero();  ///< in: mass-weighted velocity of the core's particles [m/s]
   double mass = 0;                       ///< in: their mass [kg]
@@ -20,7 +21,8 @@ template <int Dim> struct CoreCell {
   Vec<Dim> adhered_momentum = Vec<Dim>::Zero();  ///< out: what the grid lost with it [kg m/s]
 };
 
-template <int Dim> class CoreBoundary {
+template <int Dim>
+class CoreBoundary {
  public:
   using Sides = std::array<std::array<Side, 2>, Dim>;
 
@@ -31,8 +33,8 @@ template <int Dim> class CoreBoundary {
   void push_out_smoke(Field<Dim>& smoke, std::span<CoreCell<Dim>> cores, const FaceField<Dim>& u,
                       const Field<Dim, CellKind>& kind, const Ground<Dim>& ground) const;
 
-  /// Faces of core cells take the common velocity of the core's snow and the air on its faces, between two core cells the
-  /// mean; 0 unless `moving`. Closed faces stay, and so do faces between two pocket cells, whose air waits. Sets
+  /// Faces of core cells take the common velocity of the core's snow and the air on its faces, between two core cells
+  /// the mean; 0 unless `moving`. Closed faces stay, and so do faces between two pocket cells, whose air waits. Sets
   /// CoreCell::impulse to the momentum that the air loses by it.
   void set_velocity(FaceField<Dim>& u, std::span<CoreCell<Dim>> cores, const Field<Dim, CellKind>& kind,
                     const Field<Dim>& smoke, const Ground<Dim>& ground, bool moving);

@@ -15,7 +15,8 @@ struct Lines {
 
 /// Gaussian elimination along one line (or a pack of lines side by side) of n points, `stride` apart. The sum of w x
 /// over lines without fixed points is kept: round-off of the elimination must not add up over thousands of steps.
-template <class T> void solve_line(const Lines& lines, std::ptrdiff_t stride, int n) {
+template <class T>
+void solve_line(const Lines& lines, std::ptrdiff_t stride, int n) {
   T link_last{}, x_last{}, ratio_last{}, sum{}, n_fixed{};
   for (int i = 0; i < n; ++i) {
     const std::ptrdiff_t at = i * stride;
@@ -44,11 +45,13 @@ template <class T> void solve_line(const Lines& lines, std::ptrdiff_t stride, in
 
 }  // namespace
 
-template <int Dim> void Diffusion<Dim>::resize(std::size_t n) {
+template <int Dim>
+void Diffusion<Dim>::resize(std::size_t n) {
   for (auto* array : {&x_, &weight_, &link_, &ratio_, &fixed_}) array->resize(n);
 }
 
-template <int Dim> void Diffusion<Dim>::solve_lines(std::vector<double>& x, const Index<Dim>& shape, int axis) {
+template <int Dim>
+void Diffusion<Dim>::solve_lines(std::vector<double>& x, const Index<Dim>& shape, int axis) {
   std::ptrdiff_t stride = 1;
   for (int k = 0; k < axis; ++k) stride *= shape[k];
   const auto lines_at = [&](std::size_t n) { return Lines{&x[n], &ratio_[n], &weight_[n], &fixed_[n], &link_[n]}; };

@@ -8,7 +8,8 @@
 namespace spindrift {
 
 /// Holds memory only once it has been used.
-template <int Dim> class Diffusion {
+template <int Dim>
+class Diffusion {
  public:
   /// m_f u' - nu dt div(m grad u') = m_f u for each component, m the mass of the faces: momentum only moves. Free slip:
   /// nothing passes to closed faces and through sides. Faces with flow_area 0 keep their velocity, and others feel it.

@@ -12,7 +12,8 @@
 
 namespace spindrift {
 
-template <int Dim, class T = double> class Field {
+template <int Dim, class T = double>
+class Field {
  public:
   Field() = default;
   explicit Field(const Index<Dim>& shape, T value = T{}) : shape_(shape), data_(count<Dim>(shape), value) {}

@@ -12,7 +12,8 @@ namespace {
 constexpr std::uint8_t deep = 255;
 
 /// Calls f(index) for the points of `shape` in the columns [begin, end).
-template <int Dim, class F> void for_each_in_columns(const Index<Dim>& shape, int begin, int end, F&& f) {
+template <int Dim, class F>
+void for_each_in_columns(const Index<Dim>& shape, int begin, int end, F&& f) {
   Index<Dim> part = shape;
   part[0] = end - begin;
   for_each_index<Dim>(part, [&](const Index<Dim>& i) { f(shifted<Dim>(i, 0, begin)); });
@@ -33,7 +34,8 @@ std::array<double, std::size_t{1} << K> corners(const Field<Dim>& distance, cons
 }
 
 /// Calls f(pointer) for the bytes that are not 0.
-template <class F> void for_each_nonzero(const std::uint8_t* begin, const std::uint8_t* end, F&& f) {
+template <class F>
+void for_each_nonzero(const std::uint8_t* begin, const std::uint8_t* end, F&& f) {
   for (const std::uint8_t* byte = begin; byte < end; ++byte) {
     std::uint64_t eight = 0;
     while (end - byte >= 8 && (std::memcpy(&eight, byte, 8), eight == 0)) byte += 8;
@@ -56,7 +58,8 @@ Ground<Dim>::Ground(const MacGrid<Dim>& grid, double air_density)
   set_lists();
 }
 
-template <int Dim> void Ground<Dim>::set(const Field<Dim>& node_distance, int begin, int end) {
+template <int Dim>
+void Ground<Dim>::set(const Field<Dim>& node_distance, int begin, int end) {
   SPINDRIFT_CHECK(node_distance.shape() == grid_.nodes());
   for_each_in_columns<Dim>(grid_.nodes(), begin, end + 1, [&](const Index<Dim>& i) {
     if (std::isfinite(node_distance[i])) return;
@@ -86,14 +89,16 @@ template <int Dim> void Ground<Dim>::set(const Field<Dim>& node_distance, int be
   set_lists();
 }
 
-template <int Dim> void Ground<Dim>::set_air_mass(int axis, int begin, int end) {
+template <int Dim>
+void Ground<Dim>::set_air_mass(int axis, int begin, int end) {
   const auto axis_end = axis == 0 ? end + 1 : end;
   for_each_in_columns<Dim>(grid_.faces(axis), begin, axis_end, [&](const Index<Dim>& i) {
     air_mass_[axis][i] = open_[axis][i] > 0 ? air_density_ * smoke_of_face<Dim>(volume_, axis, i) : 0;
   });
 }
 
-template <int Dim> void Ground<Dim>::set_layers(int axis, int begin, int end) {
+template <int Dim>
+void Ground<Dim>::set_layers(int axis, int begin, int end) {
   auto& layer = layer_[axis];
   const Index<Dim> shape = layer.shape();
   const int first = std::max(begin - n_layers, 0), last = std::min(end + 1 + n_layers, shape[0]);
@@ -113,7 +118,8 @@ template <int Dim> void Ground<Dim>::set_layers(int axis, int begin, int end) {
   }
 }
 
-template <int Dim> void Ground<Dim>::set_lists() {
+template <int Dim>
+void Ground<Dim>::set_lists() {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     const auto& layer = layer_[axis];
     for (auto& list : faces_of_layer_[axis]) list.clear();
@@ -137,7 +143,8 @@ template <int Dim> void Ground<Dim>::set_lists() {
                    [&](const std::uint8_t* cell) { small_cells_.push_back(static_cast<std::uint32_t>(cell - first)); });
 }
 
-template <int Dim> void Ground<Dim>::extrapolate(FaceField<Dim>& u) const {
+template <int Dim>
+void Ground<Dim>::extrapolate(FaceField<Dim>& u) const {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     const auto& layer = layer_[axis];
     const Index<Dim> shape = layer.shape();
@@ -157,7 +164,8 @@ template <int Dim> void Ground<Dim>::extrapolate(FaceField<Dim>& u) const {
   }
 }
 
-template <int Dim> void Ground<Dim>::clear_deep(FaceField<Dim>& u, int begin, int end) const {
+template <int Dim>
+void Ground<Dim>::clear_deep(FaceField<Dim>& u, int begin, int end) const {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     const Index<Dim>& shape = u[axis].shape();
     for_each_in_columns<Dim>(shape, std::max(begin - n_layers, 0), std::min(end + 1 + n_layers, shape[0]),
@@ -167,7 +175,8 @@ template <int Dim> void Ground<Dim>::clear_deep(FaceField<Dim>& u, int begin, in
   }
 }
 
-template <int Dim> std::size_t Ground<Dim>::bytes() const {
+template <int Dim>
+std::size_t Ground<Dim>::bytes() const {
   std::size_t n = volume_.bytes() + small_.bytes() + spindrift::bytes(small_cells_);
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     n += open_[axis].bytes() + air_mass_[axis].bytes() + layer_[axis].bytes() + spindrift::bytes(rows_[axis]);

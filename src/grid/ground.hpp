@@ -16,7 +16,8 @@ struct Span {
   bool empty() const { return end <= begin; }
 };
 
-template <int Dim> class Ground {
+template <int Dim>
+class Ground {
  public:
   /// Everything open.
   Ground(const MacGrid<Dim>& grid, double air_density);
@@ -67,7 +68,8 @@ template <int Dim> class Ground {
 };
 
 /// Face mass [kg] of one face from its row data. axis: of the face; smoke of the cells on both sides, where they exist.
-template <int Dim> double smoke_of_face(const Field<Dim>& smoke, int axis, const Index<Dim>& face) {
+template <int Dim>
+double smoke_of_face(const Field<Dim>& smoke, int axis, const Index<Dim>& face) {
   double mass = 0;
   if (face[axis] < smoke.shape()[axis]) mass += smoke[face];
   if (face[axis] > 0) mass += smoke[shifted<Dim>(face, axis, -1)];

@@ -7,7 +7,8 @@ namespace spindrift {
 namespace {
 
 /// Positive part of a segment, triangle or tetrahedron with a linear distance. Corners are reordered.
-template <int K> double simplex_fraction(std::array<double, K + 1> d) {
+template <int K>
+double simplex_fraction(std::array<double, K + 1> d) {
   const auto part = [](double positive, double other) { return positive / (positive - other); };
   std::sort(d.begin(), d.end(), std::greater<>());
   const auto n_positive = std::count_if(d.begin(), d.end(), [](double x) { return x > 0; });
@@ -56,7 +57,8 @@ double sum_of_fractions(const std::array<double, std::size_t{1} << K>& d, std::a
 
 }  // namespace
 
-template <int K> double open_fraction(const std::array<double, std::size_t{1} << K>& distance) {
+template <int K>
+double open_fraction(const std::array<double, std::size_t{1} << K>& distance) {
   const auto n_positive = std::count_if(distance.begin(), distance.end(), [](double x) { return x > 0; });
   if (n_positive == 0) return 0;
   if (static_cast<std::size_t>(n_positive) == distance.size()) return 1;

@@ -15,33 +15,40 @@ inline constexpr int pack_size = 2;
 #endif
 using Pack = double __attribute__((vector_size(8 * pack_size)));
 
-template <class T> T load(const double* p) {
+template <class T>
+T load(const double* p) {
   T x;
   std::memcpy(&x, p, sizeof x);
   return x;
 }
-template <class T> void store(double* p, const T& x) {
+template <class T>
+void store(double* p, const T& x) {
   std::memcpy(p, &x, sizeof x);
 }
-template <class T> T smaller(T a, T b) {
+template <class T>
+T smaller(T a, T b) {
   return a < b ? a : b;
 }
-template <class T> T larger(T a, T b) {
+template <class T>
+T larger(T a, T b) {
   return a > b ? a : b;
 }
-template <class T> T magnitude(T a) {
+template <class T>
+T magnitude(T a) {
   return a < 0 ? -a : a;
 }
 
 /// f.operator()<T>(i) over [begin, end), T = Pack or double for the rest. Each i is visited once.
-template <class F> void for_each_pack(int begin, int end, F&& f) {
+template <class F>
+void for_each_pack(int begin, int end, F&& f) {
   int i = begin;
   for (; i + pack_size <= end; i += pack_size) f.template operator()<Pack>(i);
   for (; i < end; ++i) f.template operator()<double>(i);
 }
 
 /// The same, but the last pack reaches back over items done before: f must not read what it writes.
-template <class F> void for_each_pack_overlapping(int begin, int end, F&& f) {
+template <class F>
+void for_each_pack_overlapping(int begin, int end, F&& f) {
   if (end - begin < pack_size) return for_each_pack(begin, end, f);
   int i = begin;
   for (; i + pack_size <= end; i += pack_size) f.template operator()<Pack>(i);
@@ -49,7 +56,8 @@ template <class F> void for_each_pack_overlapping(int begin, int end, F&& f) {
 }
 
 /// sum of f.operator()<T>(i) over [begin, end), in an order fixed by the range.
-template <class F> double sum_packs(int begin, int end, F&& f) {
+template <class F>
+double sum_packs(int begin, int end, F&& f) {
   Pack sum{};
   double rest = 0;
   int i = begin;
@@ -60,7 +68,8 @@ template <class F> double sum_packs(int begin, int end, F&& f) {
 }
 
 /// The largest f.operator()<T>(i) over [begin, end), at least 0; NaN where one is not finite.
-template <class F> double max_packs(int begin, int end, F&& f) {
+template <class F>
+double max_packs(int begin, int end, F&& f) {
   Pack most{}, bad{};
   double rest = 0, bad_rest = 0;
   int i = begin;

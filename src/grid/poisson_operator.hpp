@@ -46,7 +46,7 @@ struct PoissonOperator {
   /// Sets the coefficients for this step's density [kg/m3], open fractions and kinds.
   /// heavy: core cells whose faces yield; cell_volume [m^Dim].
   void build(const Field<Dim>& density, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
-             std::span<const HeavyCell<Dim>> heavy, double cell_volume);
+             std::span<const HeavyCell<Dim>> heavy = {}, double cell_volume = 1);
 
   /// y = A x; returns x . y.
   double apply(std::vector<double>& y, const std::vector<double>& x) const;

@@ -9,9 +9,14 @@
 
 namespace spindrift {
 
-/// Groups of small cells around a root: the neighbour of at least half a cell's volume behind the widest face. Small
-/// cells without such a neighbour stay alone. Scratch of one step.
-template <int Dim> class SmallCells {
+/// The neighbour of a small cell that has at least half a cell's volume and lies behind the widest face (by `area`);
+/// the cell itself where there is none.
+template <int Dim>
+std::size_t root_of_small_cell(std::size_t cell, const FaceField<Dim>& area, const Ground<Dim>& ground);
+
+/// Groups of small cells around their root. Small cells without one stay alone. Scratch of one step.
+template <int Dim>
+class SmallCells {
  public:
   void find(const FaceField<Dim>& flow_area, const Ground<Dim>& ground);
 
@@ -28,7 +33,8 @@ template <int Dim> class SmallCells {
   struct Member {
     std::uint32_t root, cell;
   };
-  template <class F> void for_each_group(F&& f) const;
+  template <class F>
+  void for_each_group(F&& f) const;
 
   std::vector<Member> members_;  ///< by root
 };

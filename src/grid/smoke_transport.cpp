@@ -4,31 +4,13 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "grid/limited_flux.hpp"
 #include "grid/pack.hpp"
 
 namespace spindrift {
 namespace {
 
-constexpr double tiny = 1e-300;
 constexpr double largest_share = 0.98;  ///< of a cell's volume that may leave it at once: room for round-off
-
-/// Mass that passes a face with the volume `flow` from the left cell l to the right one r (or back, if negative); ll
-/// and rr are the cells beyond. density, volume: of the cells; room: volume of the donor that stays.
-template <class T>
-T limited_flux(T flow, T density_ll, T density_l, T density_r, T density_rr, T volume_l, T volume_r, T room_l,
-               T room_r) {
-  const T donor = flow > 0 ? density_l : density_r, other = flow > 0 ? density_r : density_l;
-  const T behind = flow > 0 ? density_ll : density_rr;
-  const T size = magnitude(flow), room = flow > 0 ? room_l : room_r;
-  const T c = size / ((flow > 0 ? volume_l : volume_r) + tiny);
-  const T ahead = other - donor, back = donor - behind;
-  const T ahead_size = magnitude(ahead), back_size = magnitude(back);
-  const T smooth = size * (1 - c) * ((2 - c) * ahead_size + (1 + c) * back_size) * (1.0 / 6);
-  const T excess = larger(smaller(smaller(size * ahead_size, smooth), 0.999 * room * back_size), T{});
-  const T correction = ahead * back > 0 ? excess : T{};
-  const T mass = size * donor + (ahead > 0 ? correction : -correction);
-  return flow > 0 ? mass : -mass;
-}
 
 Span joined(Span a, Span b) {
   if (a.empty()) return b;
@@ -36,7 +18,8 @@ Span joined(Span a, Span b) {
   return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
-template <int Dim> std::size_t row_of(const Index<Dim>& cell, const Index<Dim>& shape) {
+template <int Dim>
+std::size_t row_of(const Index<Dim>& cell, const Index<Dim>& shape) {
   return flat<Dim>(cell, shape) / static_cast<std::size_t>(shape[0]);
 }
 
@@ -55,7 +38,9 @@ SmokeTransport<Dim>::SmokeTransport(const MacGrid<Dim>& grid, const std::array<s
   before_.resize(volume_.n_rows());
 }
 
-template <int Dim> template <class T> T SmokeTransport<Dim>::Flow::through(int axis, std::size_t face) const {
+template <int Dim>
+template <class T>
+T SmokeTransport<Dim>::Flow::through(int axis, std::size_t face) const {
   return dt * load<T>(&flow_area[axis][face]) * (load<T>(&u[axis][face]) + settling[axis]);
 }
 
@@ -93,7 +78,8 @@ SmokeFlow SmokeTransport<Dim>::advance(Field<Dim>& smoke, const FaceField<Dim>& 
   return done;
 }
 
-template <int Dim> bool SmokeTransport<Dim>::find_spans(const Field<Dim>& smoke) {
+template <int Dim>
+bool SmokeTransport<Dim>::find_spans(const Field<Dim>& smoke) {
   const auto has_smoke = [](double m) { return m != 0; };
   bool any = false;
   for (std::size_t r = 0; r < spans_.size(); ++r) {
@@ -109,7 +95,8 @@ template <int Dim> bool SmokeTransport<Dim>::find_spans(const Field<Dim>& smoke)
 }
 
 /// By the one cell that smoke can move along the axis.
-template <int Dim> void SmokeTransport<Dim>::widen_spans(int axis) {
+template <int Dim>
+void SmokeTransport<Dim>::widen_spans(int axis) {
   spans_.swap(before_);
   const auto step = axis == 0 ? 0 : static_cast<std::size_t>(volume_.stride(axis) / volume_.stride(1));
   for (std::size_t r = 0; r < spans_.size(); ++r) {
@@ -127,7 +114,8 @@ template <int Dim> void SmokeTransport<Dim>::widen_spans(int axis) {
 
 /// Largest part of its volume that leaves a cell in dt, after small cells and their roots have lent each other volume:
 /// over all cells that smoke may reach in one substep. Sets volume_.
-template <int Dim> double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>& ground) {
+template <int Dim>
+double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>& ground) {
   for (int axis = 0; axis < Dim; ++axis) widen_spans(axis);
   parallel_for(
       spans_.size(),
@@ -152,11 +140,12 @@ template <int Dim> double SmokeTransport<Dim>::largest_outflow(const Flow& flow,
   return parallel_max(spans_.size(), 0.0, [&](std::size_t r) {
     const double *out = outflow_.row(r).data(), *volume = volume_.row(r).data();
     return max_packs(spans_[r].begin, spans_[r].end,
-                     [&]<class T>(int i) { return load<T>(out + i) / (load<T>(volume + i) + tiny); });
+                     [&]<class T>(int i) { return load<T>(out + i) / (load<T>(volume + i) + smallest_divisor); });
   });
 }
 
-template <int Dim> void SmokeTransport<Dim>::start_substep(const Field<Dim>& smoke) {
+template <int Dim>
+void SmokeTransport<Dim>::start_substep(const Field<Dim>& smoke) {
   parallel_for(
       spans_.size(),
       [&](std::size_t r) {
@@ -166,14 +155,15 @@ template <int Dim> void SmokeTransport<Dim>::start_substep(const Field<Dim>& smo
         std::ranges::fill(density_.row(r), 0.0);
         for_each_pack(spans_[r].begin, spans_[r].end, [&]<class T>(int i) {
           const T v = load<T>(volume + i);
-          store<T>(density + i, v > 0 ? load<T>(mass + i) / (v + tiny) : T{});
+          store<T>(density + i, v > 0 ? load<T>(mass + i) / (v + smallest_divisor) : T{});
         });
       },
       volume_.rows_per_task());
 }
 
 /// Fluxes through all faces of the cells in spans_.
-template <int Dim> void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow) {
+template <int Dim>
+void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow) {
   Field<Dim>& flux = flux_[axis];
   const int n = grid_.cells[axis];
   const auto cell = density_.stride(axis), face = flux.stride(axis);
@@ -181,7 +171,8 @@ template <int Dim> void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow
   const auto upwind = [&](const Index<Dim>& i) {
     const double q = flow.template through<double>(axis, flat<Dim>(i, flux.shape()));
     const double below = i[axis] > 0 ? density_[shifted<Dim>(i, axis, -1)] : 0, above = i[axis] < n ? density_[i] : 0;
-    flux[i] = q > 0 ? q * below : q * above;
+    const double mass = q > 0 ? q * below : q * above;
+    flux[i] = std::abs(mass) > smallest_flux ? mass : 0;
   };
   const auto limited = [&](const Index<Dim>& start, int begin, int end) {
     const std::size_t first = flat<Dim>(start, flux.shape());
@@ -223,7 +214,8 @@ template <int Dim> void SmokeTransport<Dim>::set_flux(int axis, const Flow& flow
       flux.rows_per_task());
 }
 
-template <int Dim> void SmokeTransport<Dim>::update(int axis, Field<Dim>& smoke, const Flow& flow) {
+template <int Dim>
+void SmokeTransport<Dim>::update(int axis, Field<Dim>& smoke, const Flow& flow) {
   const auto next = static_cast<std::size_t>(flux_[axis].stride(axis));
   parallel_for(
       smoke.n_rows(),
@@ -238,14 +230,15 @@ template <int Dim> void SmokeTransport<Dim>::update(int axis, Field<Dim>& smoke,
                       (flow.template through<T>(axis, face) - flow.template through<T>(axis, face + next));
           store<T>(mass + i, m);
           store<T>(volume + i, v);
-          store<T>(density + i, v > 0 ? m / (v + tiny) : T{});
+          store<T>(density + i, v > 0 ? m / (v + smallest_divisor) : T{});
         });
       },
       smoke.rows_per_task());
 }
 
 /// Mass through the open sides at the ends of the axis in this sweep [kg].
-template <int Dim> double SmokeTransport<Dim>::outflow(int axis) const {
+template <int Dim>
+double SmokeTransport<Dim>::outflow(int axis) const {
   double mass = 0;
   Index<Dim> ends = flux_[axis].shape();
   ends[axis] = 1;
@@ -286,7 +279,8 @@ double SmokeTransport<Dim>::deposit(Field<Dim>& smoke, const Ground<Dim>& ground
   return deposited;
 }
 
-template <int Dim> std::size_t SmokeTransport<Dim>::bytes() const {
+template <int Dim>
+std::size_t SmokeTransport<Dim>::bytes() const {
   std::size_t n = volume_.bytes() + swept_volume_.bytes() + density_.bytes() + outflow_.bytes();
   for (const auto& f : flux_) n += f.bytes();
   return n + spindrift::bytes(spans_, before_) + small_cells_.bytes();

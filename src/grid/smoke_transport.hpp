@@ -15,7 +15,8 @@ struct SmokeFlow {
   int substeps = 0;
 };
 
-template <int Dim> class SmokeTransport {
+template <int Dim>
+class SmokeTransport {
  public:
   SmokeTransport(const MacGrid<Dim>& grid, const std::array<std::array<Side, 2>, Dim>& sides);
 
@@ -44,7 +45,8 @@ template <int Dim> class SmokeTransport {
     const FaceField<Dim>& flow_area;
     Vec<Dim> settling;
     double dt;
-    template <class T> T through(int axis, std::size_t face) const;
+    template <class T>
+    T through(int axis, std::size_t face) const;
   };
 
   bool find_spans(const Field<Dim>& smoke);

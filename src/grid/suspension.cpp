@@ -30,7 +30,8 @@ Suspension<Dim>::Suspension(const MacGrid<Dim>& grid, const Sides& sides, const 
   update_active(0, grid_.cells[0]);
 }
 
-template <int Dim> void Suspension<Dim>::set_velocity(const FaceField<Dim>& u) {
+template <int Dim>
+void Suspension<Dim>::set_velocity(const FaceField<Dim>& u) {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     SPINDRIFT_CHECK(u[axis].shape() == velocity_[axis].shape());
     std::ranges::copy(u[axis].values(), velocity_[axis].values().begin());
@@ -38,28 +39,33 @@ template <int Dim> void Suspension<Dim>::set_velocity(const FaceField<Dim>& u) {
   start_from_velocity();
 }
 
-template <int Dim> void Suspension<Dim>::set_smoke_mass(const Field<Dim>& smoke) {
+template <int Dim>
+void Suspension<Dim>::set_smoke_mass(const Field<Dim>& smoke) {
   SPINDRIFT_CHECK(smoke.shape() == grid_.cells);
   std::ranges::copy(smoke.values(), smoke_.values().begin());
 }
 
-template <int Dim> void Suspension<Dim>::set_kind(const Field<Dim, CellKind>& kind) {
+template <int Dim>
+void Suspension<Dim>::set_kind(const Field<Dim, CellKind>& kind) {
   SPINDRIFT_CHECK(kind.shape() == grid_.cells);
   std::ranges::copy(kind.values(), kind_.values().begin());
   kinds_are_old_ = true;
   update_active(0, grid_.cells[0]);
 }
 
-template <int Dim> void Suspension<Dim>::set_pressure(const Field<Dim>& pressure) {
+template <int Dim>
+void Suspension<Dim>::set_pressure(const Field<Dim>& pressure) {
   SPINDRIFT_CHECK(pressure.shape() == grid_.cells);
   std::ranges::copy(pressure.values(), projection_.pressure().values().begin());
 }
 
-template <int Dim> void Suspension<Dim>::set_ground(const Field<Dim>& node_distance) {
+template <int Dim>
+void Suspension<Dim>::set_ground(const Field<Dim>& node_distance) {
   set_ground(node_distance, 0, grid_.cells[0]);
 }
 
-template <int Dim> void Suspension<Dim>::set_ground(const Field<Dim>& node_distance, int begin, int end) {
+template <int Dim>
+void Suspension<Dim>::set_ground(const Field<Dim>& node_distance, int begin, int end) {
   ground_.set(node_distance, begin, end);
   ground_.clear_deep(velocity_, begin, end);
   ground_.clear_deep(carrier_, begin, end);
@@ -78,17 +84,20 @@ template <int Dim> void Suspension<Dim>::set_ground(const Field<Dim>& node_dista
   update_active(begin, end);
 }
 
-template <int Dim> double Suspension<Dim>::face_mass(int axis, std::size_t face) const {
+template <int Dim>
+double Suspension<Dim>::face_mass(int axis, std::size_t face) const {
   const double air = ground_.air_mass()[axis][face];
   return air > 0 ? air + smoke_of_face<Dim>(smoke_, axis, unflat<Dim>(face, grid_.faces(axis))) : 0;
 }
 
-template <int Dim> double Suspension<Dim>::smoke_density(std::size_t cell) const {
+template <int Dim>
+double Suspension<Dim>::smoke_density(std::size_t cell) const {
   const double volume = ground_.volume()[cell];
   return volume > 0 ? smoke_[cell] / volume : 0;
 }
 
-template <int Dim> Vec<Dim> Suspension<Dim>::momentum() const {
+template <int Dim>
+Vec<Dim> Suspension<Dim>::momentum() const {
   Vec<Dim> sum;
   for (int axis = 0; axis < Dim; ++axis) {
     const double* u = velocity_[axis].values().data();
@@ -98,11 +107,13 @@ template <int Dim> Vec<Dim> Suspension<Dim>::momentum() const {
   return sum;
 }
 
-template <int Dim> double Suspension<Dim>::total_smoke() const {
+template <int Dim>
+double Suspension<Dim>::total_smoke() const {
   return parallel_sum(smoke_.size(), 0.0, [&](std::size_t cell) { return smoke_[cell]; });
 }
 
-template <int Dim> double Suspension<Dim>::max_speed() const {
+template <int Dim>
+double Suspension<Dim>::max_speed() const {
   double speed = 0;
   for (const auto& rows : carrier_speed_) {
     for (const double s : rows) {
@@ -113,7 +124,8 @@ template <int Dim> double Suspension<Dim>::max_speed() const {
   return speed;
 }
 
-template <int Dim> void Suspension<Dim>::start_from_velocity() {
+template <int Dim>
+void Suspension<Dim>::start_from_velocity() {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
     auto& u = velocity_[axis];
     parallel_for(
@@ -129,7 +141,8 @@ template <int Dim> void Suspension<Dim>::start_from_velocity() {
   disturbed_ = false;
 }
 
-template <int Dim> void Suspension<Dim>::set_density() {
+template <int Dim>
+void Suspension<Dim>::set_density() {
   parallel_for(
       smoke_.n_rows(),
       [&](std::size_t r) {
@@ -143,7 +156,8 @@ template <int Dim> void Suspension<Dim>::set_density() {
       smoke_.rows_per_task());
 }
 
-template <int Dim> Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
+template <int Dim>
+Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
   Vec<Dim> change = Vec<Dim>::Zero();
   if (options_.gravity.isZero() || std::ranges::none_of(smoke_.values(), [](double m) { return m != 0; }))
     return change;
@@ -166,7 +180,8 @@ template <int Dim> Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
   return change;
 }
 
-template <int Dim> Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sources) {
+template <int Dim>
+Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sources) {
   face_momentum_.clear();
   for (int axis = 0; axis < Dim; ++axis)
     for (const PointSource& source : sources.momentum[axis])
@@ -187,7 +202,8 @@ template <int Dim> Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sourc
   return change;
 }
 
-template <int Dim> std::size_t Suspension<Dim>::bytes() const {
+template <int Dim>
+std::size_t Suspension<Dim>::bytes() const {
   std::size_t n = smoke_.bytes() + kind_.bytes() + density_.bytes() + projection_.bytes() + ground_.bytes() +
                   advection_.bytes() + smoke_transport_.bytes() + diffusion_.bytes() + confinement_.bytes() +
                   core_boundary_.bytes() + components_.bytes() + spindrift::bytes(face_momentum_);

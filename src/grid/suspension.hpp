@@ -18,7 +18,8 @@
 
 namespace spindrift {
 
-template <int Dim> struct SuspensionOptions {
+template <int Dim>
+struct SuspensionOptions {
   Vec<Dim> gravity = -9.81 * up<Dim>();                  ///< [m s^-2]
   double air_density = 1.2;                              ///< [kg m^-3]
   AdvectionScheme scheme = AdvectionScheme::maccormack;  ///< of the velocity
@@ -32,7 +33,8 @@ template <int Dim> struct SuspensionOptions {
 
 /// What advance() did. The momentum entries [kg m s^-1] are changes of Suspension::momentum(); their sum is its change
 /// over the call.
-template <int Dim> struct SuspensionBudget {
+template <int Dim>
+struct SuspensionBudget {
   Vec<Dim> core = Vec<Dim>::Zero();       ///< faces set to the core's velocity, smoke pushed out of the core
   Vec<Dim> advection = Vec<Dim>::Zero();  ///< of the velocity
   Vec<Dim> smoke = Vec<Dim>::Zero();      ///< smoke that moved to cells of another velocity, left or was deposited
@@ -47,7 +49,8 @@ template <int Dim> struct SuspensionBudget {
   ProjectionResult pressure;
 };
 
-template <int Dim> class Suspension {
+template <int Dim>
+class Suspension {
  public:
   using Sides = std::array<std::array<Side, 2>, Dim>;
 
@@ -85,7 +88,7 @@ template <int Dim> class Suspension {
   /// sum over faces of face_mass u [kg m s^-1].
   Vec<Dim> momentum() const;
   double total_smoke() const;  ///< [kg]
-  double max_speed() const;    ///< largest face velocity at the end of the last step [m/s]; NaN: not finite
+  double max_speed() const;    ///< largest face velocity at the last step's end [m/s]; NaN: not finite
 
   /// One term (R8): du = dt r_s g on active faces, r_s = rho_smoke / (rho_air + rho_smoke), Eqs. (7)-(9).
   /// Returns the change of momentum() [kg m s^-1].
@@ -97,8 +100,9 @@ template <int Dim> class Suspension {
   Vec<Dim> apply(const GridSources<Dim>& sources);
 
   /// The rest of the step, paper Sec. 4.2: kinds of cells, core boundary (R10), advection, smoke transport (R7),
-  /// diffusion and confinement where present, projection (R9). cores: in order of `cell`, no cell twice; their outputs
-  /// are set.
+  /// diffusion and confinement where present, projection (R9).
+  /// cores  in-out: in order of `cell`, no cell twice, mass > 0; their outputs are set
+  /// Throws Error(unstable): the step starts from a velocity that is not finite.
   void advance(double dt, std::span<CoreCell<Dim>> cores, Stages& stages);
 
   const SuspensionBudget<Dim>& budget() const { return budget_; }

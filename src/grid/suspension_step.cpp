@@ -1,12 +1,15 @@
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "grid/suspension.hpp"
 
 namespace spindrift {
 
-template <int Dim> void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages& stages) {
+template <int Dim>
+void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages& stages) {
   budget_ = {};
+  if (!std::isfinite(max_speed())) throw Error(ExitCode::unstable, "the air's velocity is not finite");
   if (at_rest(cores)) return move_smoke(dt, stages);
 
   Vec<Dim> last = momentum();
@@ -61,23 +64,33 @@ template <int Dim> void Suspension<Dim>::advance(double dt, std::span<CoreCell<D
 }
 
 /// No air moves and none will.
-template <int Dim> bool Suspension<Dim>::at_rest(std::span<const CoreCell<Dim>> cores) const {
+template <int Dim>
+bool Suspension<Dim>::at_rest(std::span<const CoreCell<Dim>> cores) const {
   return cores.empty() && !kinds_are_old_ && !disturbed_ && max_speed() == 0;
 }
 
 /// Sets the kind of every cell, and what follows from it.
-template <int Dim> void Suspension<Dim>::classify(std::span<CoreCell<Dim>> cores) {
+template <int Dim>
+void Suspension<Dim>::classify(std::span<CoreCell<Dim>> cores) {
   for (std::size_t cell = 0; cell < kind_.size(); ++cell)
     kind_[cell] = ground_.volume()[cell] > 0 ? CellKind::open : CellKind::solid;
   for (const CoreCell<Dim>& core : cores)
     if (kind_[core.cell] == CellKind::open) kind_[core.cell] = CellKind::core;
-  if (!cores.empty()) mark_pockets<Dim>(kind_, ground_.open(), sides_, components_);
+  if (!cores.empty()) {
+    // A sliver between core and ground would answer the smallest movement of the core with a jet.
+    for (const std::uint32_t cell : ground_.small_cells())
+      if (kind_[cell] == CellKind::open &&
+          kind_[root_of_small_cell<Dim>(cell, ground_.open(), ground_)] == CellKind::core)
+        kind_[cell] = CellKind::pocket;
+    mark_pockets<Dim>(kind_, ground_.open(), sides_, components_);
+  }
   kinds_are_old_ = !cores.empty();
   update_active(0, grid_.cells[0]);
 }
 
 /// Of the faces of the cell columns [begin, end).
-template <int Dim> void Suspension<Dim>::update_active(int begin, int end) {
+template <int Dim>
+void Suspension<Dim>::update_active(int begin, int end) {
   for (int axis = 0; axis < Dim; ++axis) {
     auto& active = active_[axis];
     const int n = grid_.cells[axis];
@@ -113,7 +126,8 @@ template <int Dim> void Suspension<Dim>::update_active(int begin, int end) {
   }
 }
 
-template <int Dim> void Suspension<Dim>::move_smoke(double dt, Stages& stages) {
+template <int Dim>
+void Suspension<Dim>::move_smoke(double dt, Stages& stages) {
   Vec<Dim> settling = Vec<Dim>::Zero();
   if (options_.settling_speed > 0 && !options_.gravity.isZero())
     settling = options_.settling_speed * options_.gravity.normalized();

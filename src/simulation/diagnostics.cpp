@@ -47,6 +47,7 @@ std::vector<Diagnostic> diagnostics(const Simulation<Dim>& s, const Instruments<
   vector("core_reaction", r.core_reaction);
   vector("particle_outflow", r.outflow);
   vector("gravity_on_smoke", r.gravity_on_smoke);
+  vector("ground_on_air", r.ground_on_air);
   vector("air_core", r.suspension.core);
   vector("air_advection", r.suspension.advection);
   vector("air_smoke_transport", r.suspension.smoke);

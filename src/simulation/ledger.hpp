@@ -40,6 +40,7 @@ struct StepReport {
   Vec<Dim> exchange_on_fixed_faces = Vec<Dim>::Zero();  ///< on ground and core, see Exchange
   Vec<Dim> core_reaction = Vec<Dim>::Zero();      ///< air on the dense core
   Vec<Dim> outflow = Vec<Dim>::Zero();            ///< with particles that left
+  Vec<Dim> ground_on_air = Vec<Dim>::Zero();      ///< air that the sinking cover uncovers
   SuspensionBudget<Dim> suspension;
 };
 

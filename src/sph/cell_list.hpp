@@ -68,7 +68,7 @@ class CellList {
     for (int k = 0; k < Dim; ++k) c[k] = static_cast<int>(std::floor(x[k] * inverse_size_));
     return c;
   }
-  bool absurd(const Vec<Dim>& x) const { return !((x * inverse_size_).cwiseAbs().maxCoeff() < reach); }
+  bool absurd(const Vec<Dim>& x) const { return !((x * inverse_size_).array().abs() < reach).all(); }
   static Key pack(const Index<Dim>& c);
   static Key row_shift(std::size_t run);
   void check_positions(const Particles<Dim>& particles) const;

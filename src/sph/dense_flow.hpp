@@ -88,7 +88,8 @@ class DenseFlow {
   /// Volume relaxes to mass / density: V += (m / rho - V) (1 - exp(-dt / time)). time 0: off (R20).
   void compact(double dt, double time);
 
-  /// CFL limit [s]: cfl d / |v|max, and for a start from rest cfl sqrt(d / |gravity|); wcsph also 0.4 d / c.
+  /// CFL limit [s]: cfl d / |v|max, for a start from rest cfl sqrt(d / |gravity|), for snow under pressure
+  /// 0.6 d / sqrt(p / rho) with the last pressure; wcsph instead 0.4 d / c.
   /// Infinite without particles.
   double time_step_limit(double cfl, double gravity) const;
 

@@ -96,14 +96,18 @@ SolveReport PressureSolver<Dim>::solve(Particles<Dim>& particles, const Neighbou
   const double tolerance =
       std::min(compression_relaxation * options_.density_tolerance, 0.01 * options_.divergence_tolerance);
   double pace = 1;
+  float share = 1;  // of the relaxation, less where even plain steps lead away
   for (double last_error = 0;; last_error = report.error) {
     find_displacements(neighbours);
     report.error = find_residuals(neighbours) / static_cast<double>(n);
     const bool done = report.error <= tolerance && report.iterations > 0;
     if (done || report.iterations == options_.max_iterations) break;
-    if (report.error > last_error) pace = 1;
+    if (report.error > last_error && report.iterations > 0) {
+      if (pace < 2) share *= 0.7f;
+      pace = 1;
+    }
     const double next_pace = 0.5 * (1 + std::sqrt(1 + 4 * pace * pace));
-    update_pressures(static_cast<float>((pace - 1) / next_pace));
+    update_pressures(share, static_cast<float>((pace - 1) / next_pace));
     pace = next_pace;
     ++report.iterations;
   }
@@ -153,9 +157,9 @@ double PressureSolver<Dim>::find_residuals(const Neighbours<Dim>& neighbours) {
 }
 
 template <int Dim>
-void PressureSolver<Dim>::update_pressures(float momentum) {
+void PressureSolver<Dim>::update_pressures(float share, float momentum) {
   for (std::size_t i = 0; i < pressure_.size(); ++i) {
-    const float next = std::max(0.0f, pressure_[i] + step_[i] * residual_[i]);
+    const float next = std::max(0.0f, pressure_[i] + share * step_[i] * residual_[i]);
     pressure_[i] = std::max(0.0f, next + momentum * (next - previous_[i]));
     previous_[i] = next;
   }

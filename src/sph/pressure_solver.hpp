@@ -53,7 +53,7 @@ class PressureSolver {
   void prepare(const Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt);
   void find_displacements(const Neighbours<Dim>& neighbours);
   double find_residuals(const Neighbours<Dim>& neighbours);
-  void update_pressures(float momentum);
+  void update_pressures(float share, float momentum);
 
   PressureOptions options_;
   double h_;

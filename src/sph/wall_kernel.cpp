@@ -122,7 +122,9 @@ double WallKernel<Dim>::number_density_share(const Walls<Dim>& walls, const Vec<
 template <int Dim>
 double WallKernel<Dim>::no_slip_coefficient(const Walls<Dim>& walls, const Vec<Dim>& x) const {
   double c = 0;
-  walls.for_each_near(x, h_, [&](double s, const Vec<Dim>&) { c -= 2 * slope(s) / std::max(s, h_ / 16); });
+  walls.for_each_near(x, h_, [&](double s, const Vec<Dim>&) {
+    c -= stretch_ * slope(offset_ + stretch_ * s) / std::max(s, h_ / 16);
+  });
   return c;
 }
 

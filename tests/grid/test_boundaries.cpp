@@ -22,6 +22,7 @@ TEMPLATE_TEST_CASE_SIG("a moving core pushes air, and air, core and walls exchan
   for (int k = 0; k < 2; ++k) {
     cores[static_cast<std::size_t>(k)].cell.fill(5);
     cores[static_cast<std::size_t>(k)].cell[0] += k;
+    cores[static_cast<std::size_t>(k)].mass = 1e9;  // nothing stops it
     cores[static_cast<std::size_t>(k)].velocity = 4 * Vec<Dim>::Unit(0);
   }
   const Vec<Dim> before = air.momentum();
@@ -44,7 +45,7 @@ TEMPLATE_TEST_CASE_SIG("a moving core pushes air, and air, core and walls exchan
   Index<Dim> ahead;
   ahead.fill(5);
   ahead[0] = 7;
-  CHECK(air.velocity()[0][ahead] == (moving ? 4 : 0));
+  CHECK(air.velocity()[0][ahead] == Approx(moving ? 4 : 0));
   if (moving) CHECK(air.velocity()[0][shifted<Dim>(ahead, 0, 1)] > 0.1);
   for (int axis = 0; axis < Dim; ++axis) CHECK(air.active_faces()[axis][cores[0].cell] == 0);
   CHECK(air.active_faces()[0][shifted<Dim>(ahead, 0, 1)] == 1);
@@ -64,6 +65,7 @@ TEMPLATE_TEST_CASE_SIG("smoke leaves a cell that becomes core, or adheres", "[su
   Stages stages;
   std::vector<CoreCell<Dim>> one(1);
   one[0].cell = middle;
+  one[0].mass = 50;
   air.set_smoke_mass(smoke);
   air.advance(0.01, one, stages);
   CHECK(one[0].adhered == 0);
@@ -76,6 +78,7 @@ TEMPLATE_TEST_CASE_SIG("smoke leaves a cell that becomes core, or adheres", "[su
     if ((i[0] - 2) * (i[0] - 2) <= 1) {
       CoreCell<Dim> core;
       core.cell = i;
+      core.mass = 50;
       block.push_back(core);
     }
   });
@@ -89,6 +92,41 @@ TEMPLATE_TEST_CASE_SIG("smoke leaves a cell that becomes core, or adheres", "[su
   }
   CHECK(adhered == Approx(1.2));
   CHECK(air.total_smoke() == 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("slivers between core and ground make no jets", "[suspension]", ((int Dim), Dim), 2, 3) {
+  const int n = 12;
+  const MacGrid<Dim> grid = box_grid<Dim>(n, 6.0);
+  auto sides = all_sides<Dim>(Side::closed);
+  sides[Dim - 1][1] = Side::open;
+  Suspension<Dim> air(grid, sides, exact_options<Dim>());
+  Field<Dim> distance(grid.nodes());
+  for_each_index<Dim>(grid.nodes(), [&](const Index<Dim>& i) {
+    distance[i] = grid.node(i)[Dim - 1] - 2.73 + 0.3 * grid.node(i)[0];
+  });
+  air.set_ground(distance);
+  std::vector<CoreCell<Dim>> cores;
+  for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {
+    const double volume = air.ground().volume()[i];
+    if (i[0] < 3 || i[0] > 8 || volume <= 0 || air.ground().is_small(volume)) return;
+    if (!air.ground().is_small(air.ground().volume()[shifted<Dim>(i, Dim - 1, -1)])) return;
+    CoreCell<Dim> core;
+    core.cell = i;
+    core.mass = 1e6;
+    core.velocity = 2 * Vec<Dim>::Unit(0);
+    cores.push_back(core);
+  });
+  REQUIRE(cores.size() >= 6);
+  Stages stages;
+  air.advance(0.01, cores, stages);
+  std::size_t n_pockets = 0;
+  for (const std::uint32_t cell : air.ground().small_cells()) n_pockets += air.kind()[cell] == CellKind::pocket;
+  CHECK(n_pockets >= 3);
+  double jet = 0;
+  for (int axis = 0; axis < Dim; ++axis)
+    for (std::size_t f = 0; f < air.velocity()[axis].size(); ++f)
+      if (air.ground().open()[axis][f] > 0) jet = std::max(jet, std::abs(air.velocity()[axis][f]));
+  CHECK(jet < 5 * 2);
 }
 
 TEMPLATE_TEST_CASE_SIG("a uniform stream along a slope through the grid stays (B13)", "[suspension]", ((int Dim), Dim),

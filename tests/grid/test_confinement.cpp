@@ -16,7 +16,8 @@ double vortex(double x, double z) {
 }
 
 /// Largest change of velocity by confinement of strength 1 in 1 s.
-template <int Dim> double push(int n) {
+template <int Dim>
+double push(int n) {
   const MacGrid<Dim> grid = box_grid<Dim>(n);
   FaceField<Dim> u = swirl<Dim>(grid, vortex);
   const FaceField<Dim> before = u;

@@ -9,7 +9,8 @@ using namespace spindrift::test;
 namespace {
 
 /// Variance along x of smoke over its mass.
-template <int Dim> double variance(const MacGrid<Dim>& grid, const Field<Dim>& smoke, int axis) {
+template <int Dim>
+double variance(const MacGrid<Dim>& grid, const Field<Dim>& smoke, int axis) {
   double mass = 0, mean = 0, square = 0;
   for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {
     const double x = grid.cell_centre(i)[axis];
@@ -18,11 +19,13 @@ template <int Dim> double variance(const MacGrid<Dim>& grid, const Field<Dim>& s
   return square / mass - (mean / mass) * (mean / mass);
 }
 
-template <int Dim> FaceField<Dim> whole_areas(const MacGrid<Dim>& grid) {
+template <int Dim>
+FaceField<Dim> whole_areas(const MacGrid<Dim>& grid) {
   return make_face_field<Dim>(grid, grid.face_area());
 }
 
-template <int Dim> Field<Dim> gaussian(const MacGrid<Dim>& grid, double sigma) {
+template <int Dim>
+Field<Dim> gaussian(const MacGrid<Dim>& grid, double sigma) {
   Field<Dim> smoke(grid.cells);
   for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {
     smoke[i] = std::exp(-(grid.cell_centre(i) - Vec<Dim>::Constant(0.5)).squaredNorm() / (2 * sigma * sigma));

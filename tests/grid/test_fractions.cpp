@@ -10,7 +10,8 @@ using namespace spindrift;
 
 namespace {
 
-template <int Dim> MacGrid<Dim> unit_grid(int n, double dx = 1) {
+template <int Dim>
+MacGrid<Dim> unit_grid(int n, double dx = 1) {
   MacGrid<Dim> grid;
   grid.dx = dx;
   grid.cells.fill(n);
@@ -18,7 +19,8 @@ template <int Dim> MacGrid<Dim> unit_grid(int n, double dx = 1) {
 }
 
 /// Signed distances at the nodes to a plane through `point` with the air on the side of `normal`.
-template <int Dim> Field<Dim> plane(const MacGrid<Dim>& grid, const Vec<Dim>& point, const Vec<Dim>& normal) {
+template <int Dim>
+Field<Dim> plane(const MacGrid<Dim>& grid, const Vec<Dim>& point, const Vec<Dim>& normal) {
   Field<Dim> distance(grid.nodes());
   for_each_index<Dim>(grid.nodes(),
                       [&](const Index<Dim>& i) { distance[i] = normal.normalized().dot(grid.node(i) - point); });

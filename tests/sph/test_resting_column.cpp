@@ -1,0 +1,79 @@
+// Case A2 of the validation catalogue: a column at rest in a closed box.
+#include <catch2/catch.hpp>
+
+#include "fluid_fixture.hpp"
+
+using namespace spindrift;
+using namespace spindrift::test;
+
+namespace {
+
+struct Rest {
+  double density_error = 0;  ///< mean compression
+  double height = 0;         ///< twice the mean height of the particles [m]
+  double top = 0;            ///< of the highest particle, plus d / 2 [m]
+  double speed = 0;          ///< root mean square [m/s]
+  double floor_pressure = 0; ///< mean over the run's last quarter [Pa]
+};
+
+Rest column(int rows, double end_time, DenseFlowOptions options) {
+  const double depth = 1, d = depth / rows, g = 9.81;
+  options.support_radius = 2 * d;
+  DenseFlow<2> flow(options);
+  auto& p = flow.particles;
+  add_block<2>(p, {20, rows}, d, options.density, {0, 0});
+  const Walls<2> walls = box<2>({20 * d, 3 * depth});
+  Stages stages;
+  Rest rest;
+  double time = 0, impulse = 0, window = 0;
+  while (time < end_time) {
+    const double dt = std::min(0.01, flow.time_step_limit(0.4, g));
+    const double push = step<2>(flow, dt, walls, {0, -g}, stages)[1];
+    time += dt;
+    if (time < 0.75 * end_time) continue;
+    impulse += push;
+    window += dt;
+  }
+  flow.sort_and_find_neighbours(walls, {}, stages);
+  const double n = static_cast<double>(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    rest.density_error += std::max(0.0, flow.neighbours().volume_sum()[i] - 1) / n;
+    rest.height += 2 * p.position[i][1] / n;
+    rest.top = std::max(rest.top, p.position[i][1] + 0.5 * d);
+    rest.speed += p.velocity[i].squaredNorm() / n;
+  }
+  rest.speed = std::sqrt(rest.speed);
+  rest.floor_pressure = impulse / window / (20 * d);
+  return rest;
+}
+
+void check(const Rest& rest, int rows, double density, double density_gate, double speed_gate) {
+  const double d = 1.0 / rows, weight = density * 9.81;
+  CHECK(rest.density_error <= density_gate);
+  CHECK(rest.height == Approx(1).margin(0.5 * d));
+  CHECK(rest.top == Approx(1).margin(d));
+  CHECK(rest.floor_pressure == Approx(weight).margin(weight * 0.2 * d));
+  CHECK(rest.speed <= speed_gate * std::sqrt(9.81));
+}
+
+}  // namespace
+
+TEST_CASE("a short column rests", "[column]") { check(column(20, 1.5, {}), 20, 300, 1e-3, 0.05); }
+
+TEST_CASE("a short column rests with the equation of state", "[column]") {
+  DenseFlowOptions options;
+  options.solver = DenseSolver::wcsph;
+  options.sound_speed = 10 * std::sqrt(9.81);
+  check(column(20, 1.5, options), 20, 300, 1e-2, 0.05);
+}
+
+TEST_CASE("a column comes to rest", "[column][slow]") {
+  const int rows = GENERATE(20, 50);
+  DenseFlowOptions options;
+  SECTION("with the default tolerances") { check(column(rows, 20, options), rows, 300, 1e-3, 0.02); }
+  SECTION("the tighter the solve, the quieter") {
+    options.pressure.density_tolerance = 1e-5;
+    options.pressure.max_iterations = 1000;
+    check(column(rows, 20, options), rows, 300, 1e-3, 2e-3);
+  }
+}
