@@ -5,13 +5,17 @@
 namespace spindrift {
 namespace {
 
-/// Calls f(flat number, index) for the cells that have neighbours on all sides.
-template <int Dim, class F>
-void for_each_inner_cell(const Field<Dim>& field, F&& f) {
+/// Air that turns slower than this is left alone [s^-1]: far from the cloud it is the pressure solver's rounding.
+constexpr double quiet_vorticity = 0.01;
+
+/// Calls f(flat number, index) for the cells that have neighbours on all sides, in the rows for which wanted(row).
+template <int Dim, class Wanted, class F>
+void for_each_inner_cell(const Field<Dim>& field, Wanted&& wanted, F&& f) {
   const Index<Dim> shape = field.shape();
   parallel_for(
       field.n_rows(),
       [&](std::size_t r) {
+        if (!wanted(r)) return;
         Index<Dim> i = field.row_start(r);
         for (std::size_t k = 1; k < Dim; ++k)
           if (i[k] == 0 || i[k] + 1 == shape[k]) return;
@@ -52,7 +56,10 @@ void Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area,
       },
       size_.rows_per_task());
   const double half = 0.5 / grid.dx;
-  for_each_inner_cell<Dim>(size_, [&](std::size_t n, const Index<Dim>&) {
+  turning_.assign(size_.n_rows(), 0);
+  const std::size_t row_length = static_cast<std::size_t>(grid.cells[0]);
+  const auto every = [](std::size_t) { return true; };
+  for_each_inner_cell<Dim>(size_, every, [&](std::size_t n, const Index<Dim>&) {
     const auto d = [&](std::size_t component, std::size_t axis) {
       return half * (centre_[component][n + stride[axis]] - centre_[component][n - stride[axis]]);
     };
@@ -65,9 +72,32 @@ void Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area,
       curl_[2][n] = d(1, 0) - d(0, 1);
       size_[n] = std::hypot(curl_[0][n], curl_[1][n], curl_[2][n]);
     }
+    if (size_[n] > quiet_vorticity) turning_[n / row_length] = 1;
   });
-  for (auto& force : centre_) force.fill(0);
-  for_each_inner_cell<Dim>(size_, [&](std::size_t n, const Index<Dim>&) {
+  // A face takes half of the force of each cell beside it: rows beside one whose air turns have a share in it.
+  const auto turns = [&](std::size_t r) { return turning_[r] != 0; };
+  const auto turns_below = [&](std::size_t r) {
+    bool any = turns(r);
+    for (std::size_t k = 1; k < Dim; ++k) any = any || (r * row_length >= stride[k] && turns(r - stride[k] / row_length));
+    return any;
+  };
+  const auto turns_near = [&](std::size_t r) {
+    bool any = turns_below(r);
+    for (std::size_t k = 1; k < Dim; ++k) {
+      const std::size_t above = r + stride[k] / row_length;
+      any = any || (above < turning_.size() && turns(above));
+    }
+    return any;
+  };
+  parallel_for(
+      size_.n_rows(),
+      [&](std::size_t r) {
+        if (!turns_near(r)) return;
+        for (auto& force : centre_) std::fill(force.row(r).begin(), force.row(r).end(), 0.0);
+      },
+      size_.rows_per_task());
+  for_each_inner_cell<Dim>(size_, turns, [&](std::size_t n, const Index<Dim>&) {
+    if (!(size_[n] > quiet_vorticity)) return;
     Vec<Dim> gradient;
     bool inner = inner_[n] > 0;
     for (std::size_t k = 0; k < Dim; ++k) {
@@ -82,7 +112,7 @@ void Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area,
     for (std::size_t k = 0; k < Dim; ++k) centre_[k][n] = force[static_cast<int>(k)];
   });
   for (std::size_t k = 0; k < Dim; ++k) {
-    for_each_inner_cell<Dim>(size_, [&](std::size_t n, const Index<Dim>& i) {
+    for_each_inner_cell<Dim>(size_, turns_below, [&](std::size_t n, const Index<Dim>& i) {
       if (flow_area[k][i] > 0) u[k][i] += dt * 0.5 * (centre_[k][n] + centre_[k][n - stride[k]]);
     });
   }
@@ -90,7 +120,7 @@ void Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area,
 
 template <int Dim>
 std::size_t Confinement<Dim>::bytes() const {
-  std::size_t n = size_.bytes() + inner_.bytes();
+  std::size_t n = size_.bytes() + inner_.bytes() + spindrift::bytes(turning_);
   for (const auto& f : centre_) n += f.bytes();
   for (const auto& f : curl_) n += f.bytes();
   return n;

@@ -2,6 +2,7 @@
 /// Vorticity confinement (Fedkiw, Stam, Jensen 2001): gives back some of the swirl that advection smears out.
 
 #include <array>
+#include <vector>
 
 #include "grid/ground.hpp"
 
@@ -13,7 +14,8 @@ class Confinement {
  public:
   /// du = dt strength dx (N x omega),   N = grad |omega| / |grad |omega||
   /// with omega and N at cell centres (central differences), on the faces with a flow area whose two cells have open
-  /// neighbours all around: nothing acts at walls. Vanishes with dx.   Source: paper Sec. 4.2, f^conf.
+  /// neighbours all around: nothing acts at walls, nor where |omega| is under 0.01 s^-1. Vanishes with dx.
+  /// Source: paper Sec. 4.2, f^conf.
   /// u  in-out: [m/s];   dt  [s]
   void apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area, const MacGrid<Dim>& grid, double strength, double dt);
 
@@ -24,6 +26,7 @@ class Confinement {
   std::array<Field<Dim>, n_curl<Dim>> curl_;
   Field<Dim> size_;   ///< |omega|
   Field<Dim> inner_;  ///< 1: all faces of the cell have a flow area
+  std::vector<std::uint8_t> turning_;  ///< of each row: 1 where its air turns
 };
 
 }  // namespace spindrift

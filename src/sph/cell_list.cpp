@@ -55,8 +55,8 @@ void CellList<Dim>::check_positions(const Particles<Dim>& particles) const {
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
   if (bad == none) return;
   std::ostringstream message;
-  message << "particle " << particles.id[bad] << " is at (" << particles.position[bad].transpose()
-          << ") m, velocity (" << particles.velocity[bad].transpose() << ") m/s";
+  message << "particle " << particles.id[bad] << " is at (" << particles.position[bad].transpose() << ") m, velocity ("
+          << particles.velocity[bad].transpose() << ") m/s";
   throw Error(ExitCode::unstable, message.str());
 }
 
@@ -144,7 +144,8 @@ template <int Dim>
 void CellList<Dim>::permute(Particles<Dim>& particles) {
   const auto gather = [&](auto& array, auto& other) {
     other.resize(array.size());
-    parallel_for(array.size(), [&](std::size_t i) { other[i] = array[order_[i]]; }, 4096);
+    parallel_for(
+        array.size(), [&](std::size_t i) { other[i] = array[order_[i]]; }, 4096);
     array.swap(other);
   };
   Particles<Dim>& other = other_particles_;

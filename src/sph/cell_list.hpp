@@ -60,7 +60,7 @@ class CellList {
     Key key;
     std::uint32_t index;
   };
-  static constexpr int bits = Dim == 2 ? 31 : 21;  ///< of one coordinate in the key
+  static constexpr int bits = Dim == 2 ? 31 : 21;        ///< of one coordinate in the key
   static constexpr double reach = Dim == 2 ? 1e9 : 1e6;  ///< largest |coordinate|, well inside the bits
 
   Index<Dim> coordinates(const Vec<Dim>& x) const {
@@ -79,8 +79,8 @@ class CellList {
 
   double inverse_size_;
   std::vector<std::uint32_t> order_;
-  std::vector<Key> keys_;               ///< of the occupied cells, ascending
-  std::vector<std::uint32_t> starts_;   ///< first particle of each occupied cell, and the end
+  std::vector<Key> keys_;              ///< of the occupied cells, ascending
+  std::vector<std::uint32_t> starts_;  ///< first particle of each occupied cell, and the end
   std::vector<Runs> runs_;
   std::vector<Entry> entries_, other_entries_;
   Particles<Dim> other_particles_;

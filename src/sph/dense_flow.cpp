@@ -11,8 +11,9 @@
 namespace spindrift {
 namespace {
 
-/// Largest sqrt(p / rho) dt / d. Particles under pressure rattle with about this frequency times dt, and the step, which
-/// takes the forces' directions from its start, is unstable from about 1 on (a column of 50 rows: 0.8 rests, 1.2 bursts).
+/// Largest sqrt(p / rho) dt / d. Particles under pressure rattle with about this frequency times dt, and the step,
+/// which takes the forces' directions from its start, is unstable from about 1 on (a column of 50 rows: 0.8 rests, 1.2
+/// bursts).
 constexpr double wave_cfl = 0.6;
 
 DenseFlowOptions checked(const DenseFlowOptions& o) {
@@ -79,22 +80,19 @@ VelocitySolve<Dim> DenseFlow<Dim>::solve_velocity(double dt, Stages& stages) {
   check_velocities(particles, "before the dense flow's solve");
   if (options_.viscosity > 0) {
     auto timed = stages.time("dense_flow.viscosity");
-    done.viscosity =
-        viscosity_solver_.solve(particles, neighbours_, options_.viscosity, dt, done.boundary_impulse);
+    done.viscosity = viscosity_solver_.solve(particles, neighbours_, options_.viscosity, dt, done.boundary_impulse);
   }
   if (options_.solver == DenseSolver::wcsph) {
     auto timed = stages.time("dense_flow.wcsph");
     wave_speed_.assign(particles.size(), options_.sound_speed);
     artificial_viscosity_.apply(particles, neighbours_, wave_speed_, dt);
-    done.boundary_impulse +=
-        apply_state_pressure(particles, neighbours_, options_.sound_speed, options_.density, dt);
+    done.boundary_impulse += apply_state_pressure(particles, neighbours_, options_.sound_speed, options_.density, dt);
   } else {
     {
       auto timed = stages.time("dense_flow.artificial_viscosity");
       wave_speed_.resize(particles.size());
-      parallel_for(particles.size(), [&](std::size_t i) {
-        wave_speed_[i] = std::sqrt(particles.pressure[i] / options_.density);
-      });
+      parallel_for(particles.size(),
+                   [&](std::size_t i) { wave_speed_[i] = std::sqrt(particles.pressure[i] / options_.density); });
       artificial_viscosity_.apply(particles, neighbours_, wave_speed_, dt);
     }
     auto timed = stages.time("dense_flow.pressure");

@@ -19,10 +19,10 @@ struct DenseFlowOptions {
   double support_radius = 0.21;  ///< h [m]; the spacing is h / 2
   double density = 300;          ///< rest density [kg m^-3]
   DenseSolver solver = DenseSolver::dfsph;
-  double viscosity = 0;          ///< mu [Pa s]; 0: the viscous solve does not exist
-  bool no_slip = false;          ///< walls and cover hold the snow by viscosity
-  PressureOptions pressure;      ///< of dfsph
-  double sound_speed = 0;        ///< of wcsph [m s^-1]; positive there
+  double viscosity = 0;      ///< mu [Pa s]; 0: the viscous solve does not exist
+  bool no_slip = false;      ///< walls and cover hold the snow by viscosity
+  PressureOptions pressure;  ///< of dfsph
+  double sound_speed = 0;    ///< of wcsph [m s^-1]; positive there
 
   double spacing() const { return support_radius / 2; }
 };
@@ -31,8 +31,8 @@ struct DenseFlowOptions {
 template <int Dim>
 struct Removed {
   std::size_t count = 0;
-  double mass = 0;                          ///< [kg]
-  Vec<Dim> momentum = Vec<Dim>::Zero();     ///< [kg m s^-1]
+  double mass = 0;                       ///< [kg]
+  Vec<Dim> momentum = Vec<Dim>::Zero();  ///< [kg m s^-1]
 };
 
 /// Removes the particles for which gone(i), keeping the order of the others.
@@ -75,8 +75,8 @@ class DenseFlow {
   /// particles is legal, none too.
   /// 1: sorts the particles and finds all neighbours. Throws Error(unstable): a position that is not finite.
   void sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages);
-  /// 2: viscosity and pressure. Gravity is in the velocities already. dfsph is kept quiet by ArtificialViscosity with the
-  /// wave speed sqrt(p / rho) of the last step's pressure: none in free fall, and less the finer the particles.
+  /// 2: viscosity and pressure. Gravity is in the velocities already. dfsph is kept quiet by ArtificialViscosity with
+  /// the wave speed sqrt(p / rho) of the last step's pressure: none in free fall, and less the finer the particles.
   /// Throws Error(unstable): a velocity not finite.
   VelocitySolve<Dim> solve_velocity(double dt, Stages& stages);
   /// 3: x += dt v. What ended in a wall is put back on its surface, its velocity into the wall removed.
@@ -108,7 +108,7 @@ class DenseFlow {
   PressureSolver<Dim> pressure_solver_;
   ViscositySolver<Dim> viscosity_solver_;
   ArtificialViscosity<Dim> artificial_viscosity_;
-  std::vector<double> wave_speed_;    ///< sqrt(p / rho), or the sound speed of wcsph [m s^-1]
+  std::vector<double> wave_speed_;  ///< sqrt(p / rho), or the sound speed of wcsph [m s^-1]
 };
 
 }  // namespace spindrift

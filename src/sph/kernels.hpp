@@ -32,12 +32,13 @@ struct CubicSpline {
     return q < T(0.5) ? T(18) * q - T(12) : T(-6) * a * a / std::max(q, T(0.5));
   }
 
-  double value(double r) const { return sigma * shape(r / h); }                        ///< W [m^-Dim]
-  double slope_over_r(double r) const { return sigma / (h * h) * slope(r / h); }       ///< (dW/dr) / r [m^-(Dim+2)]
+  double value(double r) const { return sigma * shape(r / h); }                   ///< W [m^-Dim]
+  double slope_over_r(double r) const { return sigma / (h * h) * slope(r / h); }  ///< (dW/dr) / r [m^-(Dim+2)]
   Vec<Dim> gradient(const Vec<Dim>& x_ij) const { return slope_over_r(x_ij.norm()) * x_ij; }  ///< by x_i [m^-(Dim+1)]
 };
 
-/// The paper's kernel of number density, Eq. (6): W_n = h / r - 1 for r < h, else 0. Departure R1: r is at least 0.05 h.
+/// The paper's kernel of number density, Eq. (6): W_n = h / r - 1 for r < h, else 0. Departure R1: r is at least 0.05
+/// h.
 inline double number_density_kernel(double r, double h) {
   return r < h ? h / std::max(r, 0.05 * h) - 1 : 0;
 }

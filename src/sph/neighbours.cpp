@@ -105,8 +105,8 @@ void Neighbours<Dim>::find_row(std::size_t i, Block& block, const Input& input) 
     const float q = std::sqrt(static_cast<float>(distance_squared[m])) * inverse_h;
     const float slope = CubicSpline<Dim>::slope(q) * slope_scale;
     value[k] = CubicSpline<Dim>::shape(q);
-    for (int a = 0; a < Dim; ++a) gradient[k * Dim + static_cast<std::size_t>(a)] =
-        slope * static_cast<float>(x_i[a] - x[a][m]);
+    for (int a = 0; a < Dim; ++a)
+      gradient[k * Dim + static_cast<std::size_t>(a)] = slope * static_cast<float>(x_i[a] - x[a][m]);
   }
 
   double volume_sum = input.particles.volume[i];
@@ -123,8 +123,7 @@ void Neighbours<Dim>::find_row(std::size_t i, Block& block, const Input& input) 
 }
 
 template <int Dim>
-void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs,
-                                   const Input& input) {
+void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input) {
   const CubicSpline<Dim>& kernel = input.kernel;
   const Vec<Dim>& x = input.particles.position[i];
   const WallShare<Dim> walls = input.wall_kernel.share(input.walls, x);

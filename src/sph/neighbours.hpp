@@ -35,12 +35,12 @@ class Neighbours {
   };
 
   /// Finds all pairs of the particles, which `cells` has sorted, and per particle
-  ///   delta = V W(0) + sum_j V_j W_ij + sum_c V_c W_ic + wall fraction
-  ///   b     = sum_c V_c grad W_ic + grad (wall fraction)                            [m^-1]
+  ///   delta = V W(0) + sum_j V_j W_ij + sum_c V_c W_ic + J
+  ///   b     = sum_c V_c grad W_ic + grad J / 2                                      [m^-1]
   ///   G     = sum_j V_j grad W_ij + 2 b                                             [m^-1]
-  /// over neighbours j, cover c and walls. Cover and walls are mirrors to the solvers (mirrored velocity, same
-  /// pressure), so that one vector b stands for all of them. no_slip: also finds the viscous coefficient of the
-  /// boundary, c = sum_c 2 V_c |dW/dr| / r + the walls' (WallKernel).
+  /// over neighbours j, cover c and walls (J of WallKernel). Cover and walls are mirrors to the solvers (mirrored
+  /// velocity, same pressure), so that one vector b stands for all of them. no_slip: also finds the viscous coefficient
+  /// of the boundary, c = sum_c 2 V_c |dW/dr| / r + the walls' (WallKernel).
   void find(const Particles<Dim>& particles, const CellList<Dim>& cells, const Walls<Dim>& walls,
             const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip);
 
@@ -53,10 +53,10 @@ class Neighbours {
   }
   std::size_t n_pairs() const;
 
-  const std::vector<double>& volume_sum() const { return volume_sum_; }              ///< delta
-  const std::vector<Vec<Dim>>& boundary_gradient() const { return boundary_; }       ///< b [m^-1]
-  const std::vector<Vec<Dim>>& gradient_sum() const { return gradient_sum_; }        ///< G [m^-1]
-  const std::vector<double>& no_slip_coefficient() const { return no_slip_; }        ///< c [m^-2], or empty
+  const std::vector<double>& volume_sum() const { return volume_sum_; }         ///< delta
+  const std::vector<Vec<Dim>>& boundary_gradient() const { return boundary_; }  ///< b [m^-1]
+  const std::vector<Vec<Dim>>& gradient_sum() const { return gradient_sum_; }   ///< G [m^-1]
+  const std::vector<double>& no_slip_coefficient() const { return no_slip_; }   ///< c [m^-2], or empty
   std::size_t bytes() const;
 
   /// Particles whose rows lie together in memory; sweeps go over blocks of this size.

@@ -10,8 +10,8 @@
 namespace spindrift {
 namespace {
 
-/// Of the Jacobi iteration. The largest eigenvalue of the matrix scaled by its diagonal is about 2 in 2D and 2.5 in 3D on
-/// the lattice and more where it is disturbed; extrapolation is stable below 4/3 of its inverse.
+/// Of the Jacobi iteration. The largest eigenvalue of the matrix scaled by its diagonal is about 2 in 2D and 2.5 in 3D
+/// on the lattice and more where it is disturbed; extrapolation is stable below 4/3 of its inverse.
 constexpr float relaxation = 0.35f;
 
 /// Of the diagonal m / V dD_i/dp_i in units of h^-2: a quarter of its value on the lattice (2.1 in 2D, 1.7 in 3D), so
@@ -56,34 +56,37 @@ void PressureSolver<Dim>::prepare(const Particles<Dim>& particles, const Neighbo
     array->resize(n);
   gradient_sum_.resize(n * lane_width<Dim>);
   displacement_.resize(n * lane_width<Dim>);
-  parallel_for(n, [&](std::size_t i) {
-    const auto row = neighbours.row(i);
-    const Vec<Dim>& v = particles.velocity[i];
-    const Vec<Dim>& g_sum = neighbours.gradient_sum()[i];
-    double rate = 0, squares = 0;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::size_t j = row.index[k];
-      const float* g = row.gradient(k);
-      double along = 0, square = 0;
-      for (int a = 0; a < Dim; ++a) {
-        const auto g_a = static_cast<double>(g[a]);
-        along += (v[a] - particles.velocity[j][a]) * g_a;
-        square += g_a * g_a;
-      }
-      rate += particles.volume[j] * along;
-      squares += particles.volume[j] * particles.volume[j] / particles.mass[j] * square;
-    }
-    const double volume = particles.volume[i], mobility = volume / particles.mass[i];
-    rate += 2 * v.dot(neighbours.boundary_gradient()[i]);
-    const double diagonal =
-        std::max(mobility * g_sum.squaredNorm() + volume * squares, mobility * least_diagonal / (h_ * h_));
-    excess_[i] = static_cast<float>(dt * rate - allowed_compression(neighbours.volume_sum()[i]));
-    pressure_[i] = previous_[i] = static_cast<float>(particles.pressure[i]);
-    step_[i] = relaxation / static_cast<float>(dt * dt * diagonal);
-    mobility_[i] = static_cast<float>(dt * dt * mobility);
-    volume_[i] = static_cast<float>(volume);
-    store<Dim>(&gradient_sum_[i * lane_width<Dim>], to_lanes<Dim>(g_sum));
-  }, Neighbours<Dim>::block_size);
+  parallel_for(
+      n,
+      [&](std::size_t i) {
+        const auto row = neighbours.row(i);
+        const Vec<Dim>& v = particles.velocity[i];
+        const Vec<Dim>& g_sum = neighbours.gradient_sum()[i];
+        double rate = 0, squares = 0;
+        for (std::size_t k = 0; k < row.size(); ++k) {
+          const std::size_t j = row.index[k];
+          const float* g = row.gradient(k);
+          double along = 0, square = 0;
+          for (int a = 0; a < Dim; ++a) {
+            const auto g_a = static_cast<double>(g[a]);
+            along += (v[a] - particles.velocity[j][a]) * g_a;
+            square += g_a * g_a;
+          }
+          rate += particles.volume[j] * along;
+          squares += particles.volume[j] * particles.volume[j] / particles.mass[j] * square;
+        }
+        const double volume = particles.volume[i], mobility = volume / particles.mass[i];
+        rate += 2 * v.dot(neighbours.boundary_gradient()[i]);
+        const double diagonal =
+            std::max(mobility * g_sum.squaredNorm() + volume * squares, mobility * least_diagonal / (h_ * h_));
+        excess_[i] = static_cast<float>(dt * rate - allowed_compression(neighbours.volume_sum()[i]));
+        pressure_[i] = previous_[i] = static_cast<float>(particles.pressure[i]);
+        step_[i] = relaxation / static_cast<float>(dt * dt * diagonal);
+        mobility_[i] = static_cast<float>(dt * dt * mobility);
+        volume_[i] = static_cast<float>(volume);
+        store<Dim>(&gradient_sum_[i * lane_width<Dim>], to_lanes<Dim>(g_sum));
+      },
+      Neighbours<Dim>::block_size);
 }
 
 template <int Dim>
@@ -120,16 +123,19 @@ template <int Dim>
 void PressureSolver<Dim>::find_displacements(const Neighbours<Dim>& neighbours) {
   const std::size_t n = pressure_.size();
   for (std::size_t i = 0; i < n; ++i) volume_pressure_[i] = volume_[i] * pressure_[i];
-  parallel_for(n, [&](std::size_t i) {
-    const auto row = neighbours.row(i);
-    const float* g = row.gradients;
-    const std::uint32_t* j = row.index.data();
-    Lanes<Dim> sum = row_sum<Dim>(row.size(), [&](std::size_t k) {
-      return volume_pressure_[j[k]] * load<Dim>(g + k * static_cast<std::size_t>(Dim));
-    });
-    sum += pressure_[i] * load<Dim>(&gradient_sum_[i * lane_width<Dim>]);
-    store<Dim>(&displacement_[i * lane_width<Dim>], -mobility_[i] * volume_[i] * sum);
-  }, Neighbours<Dim>::block_size);
+  parallel_for(
+      n,
+      [&](std::size_t i) {
+        const auto row = neighbours.row(i);
+        const float* g = row.gradients;
+        const std::uint32_t* j = row.index.data();
+        Lanes<Dim> sum = row_sum<Dim>(row.size(), [&](std::size_t k) {
+          return volume_pressure_[j[k]] * load<Dim>(g + k * static_cast<std::size_t>(Dim));
+        });
+        sum += pressure_[i] * load<Dim>(&gradient_sum_[i * lane_width<Dim>]);
+        store<Dim>(&displacement_[i * lane_width<Dim>], -mobility_[i] * volume_[i] * sum);
+      },
+      Neighbours<Dim>::block_size);
 }
 
 /// Returns the sum of the errors: the compression left over the target, and the expansion that pressure still causes,
@@ -137,19 +143,23 @@ void PressureSolver<Dim>::find_displacements(const Neighbours<Dim>& neighbours) 
 template <int Dim>
 double PressureSolver<Dim>::find_residuals(const Neighbours<Dim>& neighbours) {
   const std::size_t n = pressure_.size();
-  parallel_for(n, [&](std::size_t i) {
-    const auto row = neighbours.row(i);
-    const float* g = row.gradients;
-    const std::uint32_t* j = row.index.data();
-    const Lanes<Dim> sum = row_sum<Dim>(row.size(), [&](std::size_t k) {
-      return load<Dim>(&displacement_[j[k] * lane_width<Dim>]) * load<Dim>(g + k * static_cast<std::size_t>(Dim));
-    });
-    const float own = dot<Dim>(load<Dim>(&displacement_[i * lane_width<Dim>]),
-                               load<Dim>(&gradient_sum_[i * lane_width<Dim>])) / volume_[i];
-    float others = 0;
-    for (int a = 0; a < Dim; ++a) others += sum[a];
-    residual_[i] = excess_[i] + own - others;
-  }, Neighbours<Dim>::block_size);
+  parallel_for(
+      n,
+      [&](std::size_t i) {
+        const auto row = neighbours.row(i);
+        const float* g = row.gradients;
+        const std::uint32_t* j = row.index.data();
+        const Lanes<Dim> sum = row_sum<Dim>(row.size(), [&](std::size_t k) {
+          return load<Dim>(&displacement_[j[k] * lane_width<Dim>]) * load<Dim>(g + k * static_cast<std::size_t>(Dim));
+        });
+        const float own =
+            dot<Dim>(load<Dim>(&displacement_[i * lane_width<Dim>]), load<Dim>(&gradient_sum_[i * lane_width<Dim>])) /
+            volume_[i];
+        float others = 0;
+        for (int a = 0; a < Dim; ++a) others += sum[a];
+        residual_[i] = excess_[i] + own - others;
+      },
+      Neighbours<Dim>::block_size);
   return parallel_sum(n, 0.0, [&](std::size_t i) {
     const float r = residual_[i];
     return static_cast<double>(r > 0 ? r : std::min(-r, relaxation * pressure_[i] / step_[i]));
@@ -169,18 +179,21 @@ template <int Dim>
 Vec<Dim> apply_pressure(std::vector<Vec<Dim>>& v, const Particles<Dim>& particles, const Neighbours<Dim>& neighbours,
                         const std::vector<double>& pressure, double dt) {
   const std::size_t n = particles.size();
-  parallel_for(n, [&](std::size_t i) {
-    const auto row = neighbours.row(i);
-    const double p_i = pressure[i], volume = particles.volume[i];
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::size_t j = row.index[k];
-      const double weight = (volume * particles.volume[j]) * (p_i + pressure[j]);
-      for (int a = 0; a < Dim; ++a) sum[a] += weight * static_cast<double>(row.gradient(k)[a]);
-    }
-    sum += (2 * volume * p_i) * neighbours.boundary_gradient()[i];
-    v[i] -= (dt / particles.mass[i]) * sum;
-  }, Neighbours<Dim>::block_size);
+  parallel_for(
+      n,
+      [&](std::size_t i) {
+        const auto row = neighbours.row(i);
+        const double p_i = pressure[i], volume = particles.volume[i];
+        Vec<Dim> sum = Vec<Dim>::Zero();
+        for (std::size_t k = 0; k < row.size(); ++k) {
+          const std::size_t j = row.index[k];
+          const double weight = (volume * particles.volume[j]) * (p_i + pressure[j]);
+          for (int a = 0; a < Dim; ++a) sum[a] += weight * static_cast<double>(row.gradient(k)[a]);
+        }
+        sum += (2 * volume * p_i) * neighbours.boundary_gradient()[i];
+        v[i] -= (dt / particles.mass[i]) * sum;
+      },
+      Neighbours<Dim>::block_size);
   return parallel_sum<Vec<Dim>>(n, Vec<Dim>::Zero(), [&](std::size_t i) -> Vec<Dim> {
     return (-2 * dt * particles.volume[i] * pressure[i]) * neighbours.boundary_gradient()[i];
   });

@@ -57,17 +57,17 @@ class PressureSolver {
 
   PressureOptions options_;
   double h_;
-  std::vector<float> excess_;        ///< dt D(v) of the velocities given, minus the largest allowed
-  std::vector<float> residual_;      ///< the same with the pressure's velocities
-  std::vector<float> step_;          ///< relaxation / diagonal of dt^2 dD/dp
+  std::vector<float> excess_;    ///< dt D(v) of the velocities given, minus the largest allowed
+  std::vector<float> residual_;  ///< the same with the pressure's velocities
+  std::vector<float> step_;      ///< relaxation / diagonal of dt^2 dD/dp
   std::vector<float> pressure_, previous_, volume_pressure_;  ///< p, p before the last extrapolation, V p
-  std::vector<float> gradient_sum_;  ///< G, padded to lanes
-  std::vector<float> mobility_, volume_;  ///< dt^2 V / m, V
-  std::vector<float> displacement_;  ///< dt^2 V a(p), padded to lanes
+  std::vector<float> gradient_sum_;                           ///< G, padded to lanes
+  std::vector<float> mobility_, volume_;                      ///< dt^2 V / m, V
+  std::vector<float> displacement_;                           ///< dt^2 V a(p), padded to lanes
 };
 
-/// v += dt F(p) / m, the forces exactly antisymmetric over pairs; v is particles.velocity or another velocity of theirs.
-/// Returns the impulse that the boundary gave [kg m s^-1].
+/// v += dt F(p) / m, the forces exactly antisymmetric over pairs; v is particles.velocity or another velocity of
+/// theirs. Returns the impulse that the boundary gave [kg m s^-1].
 template <int Dim>
 Vec<Dim> apply_pressure(std::vector<Vec<Dim>>& v, const Particles<Dim>& particles, const Neighbours<Dim>& neighbours,
                         const std::vector<double>& pressure, double dt);

@@ -97,9 +97,8 @@ SolveReport ViscositySolver<Dim>::solve(Particles<Dim>& particles, const Neighbo
       v[i] += alpha * direction_[i];
       residual_[i] -= alpha * product_[i];
     });
-    impulse += alpha * parallel_sum<Vec<Dim>>(n, Vec<Dim>::Zero(), [&](std::size_t i) -> Vec<Dim> {
-      return mass[i] * direction_[i];
-    });
+    impulse += alpha * parallel_sum<Vec<Dim>>(n, Vec<Dim>::Zero(),
+                                              [&](std::size_t i) -> Vec<Dim> { return mass[i] * direction_[i]; });
     const double next = parallel_sum(n, 0.0, [&](std::size_t i) { return residual_[i].squaredNorm() / mass[i]; });
     const double beta = next / energy;
     parallel_for(n, [&](std::size_t i) { direction_[i] = residual_[i] / mass[i] + beta * direction_[i]; });
@@ -113,8 +112,8 @@ SolveReport ViscositySolver<Dim>::solve(Particles<Dim>& particles, const Neighbo
 
 template <int Dim>
 std::size_t ViscositySolver<Dim>::bytes() const {
-  std::size_t n = spindrift::bytes(pairs_) + spindrift::bytes(boundary_) +
-                  spindrift::bytes(residual_, direction_, product_);
+  std::size_t n =
+      spindrift::bytes(pairs_) + spindrift::bytes(boundary_) + spindrift::bytes(residual_, direction_, product_);
   for (const auto& block : pairs_) n += spindrift::bytes(block);
   return n;
 }

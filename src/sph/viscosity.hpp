@@ -34,8 +34,8 @@ class ViscositySolver {
   void apply(const Neighbours<Dim>& neighbours, const std::vector<Vec<Dim>>& v, std::vector<Vec<Dim>>& out) const;
 
   double h_;
-  std::vector<std::vector<float>> pairs_;   ///< dt mu V_i V_j k_ij [kg] of each pair, by block of rows
-  std::vector<double> boundary_;            ///< dt mu V_i c_i [kg]
+  std::vector<std::vector<float>> pairs_;  ///< dt mu V_i V_j k_ij [kg] of each pair, by block of rows
+  std::vector<double> boundary_;           ///< dt mu V_i c_i [kg]
   std::vector<Vec<Dim>> residual_, direction_, product_;
 };
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t n_intervals = 2048;
 
-/// Integral of f(r) over the plane at distance s, f = 0 beyond r = 1. With rho = rho_max sin(phi) the integrand is smooth
-/// at the rim, and the midpoint rule in phi converges fast.
+/// Integral of f(r) over the plane at distance s, f = 0 beyond r = 1. With rho = rho_max sin(phi) the integrand is
+/// smooth at the rim, and the midpoint rule in phi converges fast.
 template <int Dim, class F>
 double plane_integral(double s, F&& f) {
   constexpr int n = 256;
@@ -65,8 +65,8 @@ WallKernel<Dim>::WallKernel(double support_radius) : h_(support_radius) {
   number_density_integral_ = total * std::pow(h_, Dim);
 }
 
-/// The rows of a lattice of spacing d that a wall at d/2 from its first row replaces: of them only the one at distance d
-/// lies inside the support.
+/// The rows of a lattice of spacing d that a wall at d/2 from its first row replaces: of them only the one at distance
+/// d lies inside the support.
 template <int Dim>
 void WallKernel<Dim>::fit_to_lattice() {
   const CubicSpline<Dim> kernel(h_);
@@ -122,9 +122,8 @@ double WallKernel<Dim>::number_density_share(const Walls<Dim>& walls, const Vec<
 template <int Dim>
 double WallKernel<Dim>::no_slip_coefficient(const Walls<Dim>& walls, const Vec<Dim>& x) const {
   double c = 0;
-  walls.for_each_near(x, h_, [&](double s, const Vec<Dim>&) {
-    c -= stretch_ * slope(offset_ + stretch_ * s) / std::max(s, h_ / 16);
-  });
+  walls.for_each_near(
+      x, h_, [&](double s, const Vec<Dim>&) { c -= stretch_ * slope(offset_ + stretch_ * s) / std::max(s, h_ / 16); });
   return c;
 }
 

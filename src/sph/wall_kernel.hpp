@@ -17,19 +17,19 @@ struct WallShare {
 
 /// Half-space integrals, tabulated once by quadrature and interpolated linearly (error below 1e-5).
 ///   I(s) = int W dV over the half space at distance s,   dI/ds = -W integrated over the wall's plane.
-/// What a wall adds to a particle's volume sum is J(s) = I(s_0 + a (s - d/2)). A wall that mirrors the fluid pushes twice
-/// as hard as grad I times the pressure; with a force of -2 p grad I next to a volume sum with I the forces would have no
-/// potential, and a resting column would boil for ever. J has the mirror's slope instead of I's: s_0 and a are such that a
-/// lattice whose first row lies d/2 off the wall is full, and at rest under uniform pressure (a is about 2).
-/// Several walls: the free fractions multiply, 1 - prod_k (1 - J(s_k)), which is right at box corners.
+/// What a wall adds to a particle's volume sum is J(s) = I(s_0 + a (s - d/2)). A wall that mirrors the fluid pushes
+/// twice as hard as grad I times the pressure; with a force of -2 p grad I next to a volume sum with I the forces would
+/// have no potential, and a resting column would boil for ever. J has the mirror's slope instead of I's: s_0 and a are
+/// such that a lattice whose first row lies d/2 off the wall is full, and at rest under uniform pressure (a is about
+/// 2). Several walls: the free fractions multiply, 1 - prod_k (1 - J(s_k)), which is right at box corners.
 template <int Dim>
 class WallKernel {
  public:
   explicit WallKernel(double support_radius);
 
-  double support_radius() const { return h_; }                               ///< [m]
-  double fraction(double s) const { return interpolate(fraction_, s); }      ///< I: 0 at s >= h, 1/2 at 0, 1 at s <= -h
-  double slope(double s) const { return interpolate(slope_, s) / h_; }       ///< dI/ds [m^-1], never positive
+  double support_radius() const { return h_; }                           ///< [m]
+  double fraction(double s) const { return interpolate(fraction_, s); }  ///< I: 0 at s >= h, 1/2 at 0, 1 at s <= -h
+  double slope(double s) const { return interpolate(slope_, s) / h_; }   ///< dI/ds [m^-1], never positive
   /// The share of the number-density kernel W_n (paper Eq. 6) behind the wall.
   double number_density_fraction(double s) const { return interpolate(number_density_fraction_, s); }
   /// int W_n dV over all space [m^Dim].
@@ -40,10 +40,10 @@ class WallKernel {
   /// The number-density fraction of all walls near x.
   double number_density_share(const Walls<Dim>& walls, const Vec<Dim>& x) const;
 
-  /// Viscous coefficient of no-slip walls [m^-2]: the wall's drag on a particle is -mu V c v, c = -(dJ/ds) / s. With the
-  /// wall's velocity extrapolated as the mirror image -v s'/s the integral of the Laplacian's kernel is 2 |dI/ds| / s
-  /// exactly; J makes it the lattice's sum, so that a linear shear flow over a wall feels no force. s is at least h / 16,
-  /// so that c stays finite.
+  /// Viscous coefficient of no-slip walls [m^-2]: the wall's drag on a particle is -mu V c v, c = -(dJ/ds) / s. With
+  /// the wall's velocity extrapolated as the mirror image -v s'/s the integral of the Laplacian's kernel is 2 |dI/ds| /
+  /// s exactly; J makes it the lattice's sum, so that a linear shear flow over a wall feels no force. s is at least h /
+  /// 16, so that c stays finite.
   double no_slip_coefficient(const Walls<Dim>& walls, const Vec<Dim>& x) const;
 
   std::size_t bytes() const;

@@ -17,6 +17,8 @@ Vec<Dim> apply_state_pressure(Particles<Dim>& particles, const Neighbours<Dim>& 
                               double density, double dt);
 
 /// The largest stable step, 0.4 d / c [s].
-inline double wcsph_time_step(double sound_speed, double spacing) { return 0.4 * spacing / sound_speed; }
+inline double wcsph_time_step(double sound_speed, double spacing) {
+  return 0.4 * spacing / sound_speed;
+}
 
 }  // namespace spindrift

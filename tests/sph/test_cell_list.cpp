@@ -1,11 +1,10 @@
-#include "sph/cell_list.hpp"
-
 #include <catch2/catch.hpp>
 #include <limits>
 #include <set>
 
 #include "core/error.hpp"
 #include "fluid_fixture.hpp"
+#include "sph/cell_list.hpp"
 
 using namespace spindrift;
 using namespace spindrift::test;
@@ -78,8 +77,8 @@ TEMPLATE_TEST_CASE_SIG("few particles and far particles are legal", "[cell_list]
 }
 
 TEMPLATE_TEST_CASE_SIG("absurd positions are reported with their id", "[cell_list]", ((int Dim), Dim), 2, 3) {
-  const double bad = GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e30,
-                              -1e12);
+  const double bad =
+      GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e30, -1e12);
   Particles<Dim> p = cloud<Dim>(20, 1.0, 5);
   p.id[13] = 4711;
   p.position[13][Dim - 1] = bad;

@@ -1,11 +1,10 @@
-#include "sph/dense_flow.hpp"
-
 #include <catch2/catch.hpp>
 #include <limits>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "fluid_fixture.hpp"
+#include "sph/dense_flow.hpp"
 
 using namespace spindrift;
 using namespace spindrift::test;

@@ -1,6 +1,6 @@
-#include "sph/kernels.hpp"
-
 #include <catch2/catch.hpp>
+
+#include "sph/kernels.hpp"
 
 using namespace spindrift;
 

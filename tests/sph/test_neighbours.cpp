@@ -1,11 +1,10 @@
-#include "sph/neighbours.hpp"
-
 #include <catch2/catch.hpp>
 #include <map>
 #include <nanoflann.hpp>
 
 #include "fluid_fixture.hpp"
 #include "sph/kernels.hpp"
+#include "sph/neighbours.hpp"
 
 using namespace spindrift;
 using namespace spindrift::test;

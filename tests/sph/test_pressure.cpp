@@ -1,9 +1,8 @@
-#include "sph/pressure_solver.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "fluid_fixture.hpp"
 #include "sph/kernels.hpp"
+#include "sph/pressure_solver.hpp"
 
 using namespace spindrift;
 using namespace spindrift::test;

@@ -9,11 +9,11 @@ using namespace spindrift::test;
 namespace {
 
 struct Rest {
-  double density_error = 0;  ///< mean compression
-  double height = 0;         ///< twice the mean height of the particles [m]
-  double top = 0;            ///< of the highest particle, plus d / 2 [m]
-  double speed = 0;          ///< root mean square [m/s]
-  double floor_pressure = 0; ///< mean over the run's last quarter [Pa]
+  double density_error = 0;   ///< mean compression
+  double height = 0;          ///< twice the mean height of the particles [m]
+  double top = 0;             ///< of the highest particle, plus d / 2 [m]
+  double speed = 0;           ///< root mean square [m/s]
+  double floor_pressure = 0;  ///< mean over the run's last quarter [Pa]
 };
 
 Rest column(int rows, double end_time, DenseFlowOptions options) {
@@ -58,7 +58,36 @@ void check(const Rest& rest, int rows, double density, double density_gate, doub
 
 }  // namespace
 
-TEST_CASE("a short column rests", "[column]") { check(column(20, 1.5, {}), 20, 300, 1e-3, 0.05); }
+TEST_CASE("a short column rests", "[column]") {
+  check(column(20, 1.5, {}), 20, 300, 1e-3, 0.05);
+}
+
+TEST_CASE("a short column rests on cover", "[column]") {
+  const double d = 0.1, g = 9.81;
+  Particles<2> cover;
+  add_block<2>(cover, {10, 3}, d, 100, {0, 0});
+  CellList<2> cells(2 * d);
+  cells.build(cover);
+  cells.release_scratch();
+  DenseFlow<2> flow(options_for<2>(d));
+  add_block<2>(flow.particles, {10, 10}, d, 300, {0, 3 * d});
+  const Walls<2> walls = box<2>({10 * d, 30 * d});
+  Stages stages;
+  double impulse = 0, time = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double dt = std::min(0.01, flow.time_step_limit(0.4, g));
+    impulse += step<2>(flow, dt, walls, {0, -g}, stages, {&cover, &cells})[1];
+    time += dt;
+  }
+  CHECK(impulse / time == Approx(300 * g).epsilon(0.02));
+  double mean = 0, lowest = 1e9;
+  for (const auto& x : flow.particles.position) {
+    mean += x[1] / 100;
+    lowest = std::min(lowest, x[1]);
+  }
+  CHECK(mean == Approx(8 * d).margin(0.5 * d));
+  CHECK(lowest > 3 * d);
+}
 
 TEST_CASE("a short column rests with the equation of state", "[column]") {
   DenseFlowOptions options;
@@ -70,7 +99,9 @@ TEST_CASE("a short column rests with the equation of state", "[column]") {
 TEST_CASE("a column comes to rest", "[column][slow]") {
   const int rows = GENERATE(20, 50);
   DenseFlowOptions options;
-  SECTION("with the default tolerances") { check(column(rows, 20, options), rows, 300, 1e-3, 0.02); }
+  SECTION("with the default tolerances") {
+    check(column(rows, 20, options), rows, 300, 1e-3, 0.02);
+  }
   SECTION("the tighter the solve, the quieter") {
     options.pressure.density_tolerance = 1e-5;
     options.pressure.max_iterations = 1000;

@@ -1,9 +1,8 @@
-#include "sph/viscosity.hpp"
-
 #include <catch2/catch.hpp>
 #include <numbers>
 
 #include "fluid_fixture.hpp"
+#include "sph/viscosity.hpp"
 
 using namespace spindrift;
 using namespace spindrift::test;
@@ -62,8 +61,8 @@ TEMPLATE_TEST_CASE_SIG("a shear wave decays at the viscous rate", "[viscosity]",
   }
 }
 
-// Case A8 of the validation catalogue: the middle of a long film on a slope, started from rest. The solve must be tight,
-// for the default tolerance is of the order of this film's slow shear.
+// Case A8 of the validation catalogue: the middle of a long film on a slope, started from rest. The solve must be
+// tight, for the default tolerance is of the order of this film's slow shear.
 TEST_CASE("a viscous film on a slope has the parabola", "[viscosity][slow]") {
   const int rows = 20;
   const double depth = 0.1, d = depth / rows, mu = 100, rho = 1000, g = 9.81, angle = 20 * std::numbers::pi / 180;
@@ -80,15 +79,17 @@ TEST_CASE("a viscous film on a slope has the parabola", "[viscosity][slow]") {
   walls.domain.lower[1] = 0;
   walls.sides[1][0] = Side::closed;
   Stages stages;
-  for (int k = 0; k < 220; ++k)
-    step<2>(flow, 0.001, walls, g * Vec<2>(std::sin(angle), -std::cos(angle)), stages);
   std::vector<double> sum(rows, 0.0), height(rows, 0.0), n(rows, 0.0);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const auto row = static_cast<std::size_t>(p.position[i][1] / d);
-    if (std::abs(p.position[i][0]) > 0.5 * depth || row >= static_cast<std::size_t>(rows)) continue;
-    sum[row] += p.velocity[i][0];
-    height[row] += p.position[i][1];
-    n[row] += 1;
+  for (int k = 0; k < 350; ++k) {
+    step<2>(flow, 0.001, walls, g * Vec<2>(std::sin(angle), -std::cos(angle)), stages);
+    if (k < 250 || k % 10 != 0) continue;  // rows that slide over rows modulate the speed: a mean over their passing
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const auto row = static_cast<std::size_t>(p.position[i][1] / d);
+      if (std::abs(p.position[i][0]) > 0.5 * depth || row >= static_cast<std::size_t>(rows)) continue;
+      sum[row] += p.velocity[i][0];
+      height[row] += p.position[i][1];
+      n[row] += 1;
+    }
   }
   double error = 0, norm = 0;
   for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {

@@ -1,8 +1,7 @@
-#include "sph/wall_kernel.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "sph/kernels.hpp"
+#include "sph/wall_kernel.hpp"
 
 using namespace spindrift;
 
@@ -40,15 +39,15 @@ TEMPLATE_TEST_CASE_SIG("wall integrals match sums over a fine lattice", "[wall_k
   const CubicSpline<Dim> kernel(h);
   const double s = GENERATE(-0.35, -0.1, 0.0, 0.05, 0.2, 0.3, 0.39);
   const auto behind = [&](const Vec<Dim>& x) { return x[0] > s; };
-  const double fraction = lattice_integral<Dim>(h, n, [&](const Vec<Dim>& x) { return kernel.value(x.norm()); }, behind);
-  const double slope =
-      lattice_integral<Dim>(h, n, [&](const Vec<Dim>& x) { return kernel.gradient(x)[0]; }, behind);
+  const double fraction = lattice_integral<Dim>(
+      h, n, [&](const Vec<Dim>& x) { return kernel.value(x.norm()); }, behind);
+  const double slope = lattice_integral<Dim>(
+      h, n, [&](const Vec<Dim>& x) { return kernel.gradient(x)[0]; }, behind);
   CHECK(wall.fraction(s) == Approx(fraction).margin(2e-3));
   CHECK(wall.slope(s) * h == Approx(slope * h).margin(5e-3));
   const auto number = [&](const Vec<Dim>& x) { return number_density_kernel(x.norm(), h); };
   const double all = lattice_integral<Dim>(h, n, number, [](const Vec<Dim>&) { return true; });
-  CHECK(wall.number_density_fraction(s) ==
-        Approx(lattice_integral<Dim>(h, n, number, behind) / all).margin(3e-3));
+  CHECK(wall.number_density_fraction(s) == Approx(lattice_integral<Dim>(h, n, number, behind) / all).margin(3e-3));
   CHECK(wall.number_density_integral() == Approx(all).epsilon(3e-3));
 }
 
@@ -65,7 +64,8 @@ TEMPLATE_TEST_CASE_SIG("wall integrals end where they must", "[wall_kernel]", ((
   CHECK(wall.slope(s) == Approx((wall.fraction(s + e) - wall.fraction(s - e)) / (2 * e)).margin(1e-3 / 0.2));
 }
 
-TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", "[wall_kernel]", ((int Dim), Dim), 2,
+                       3) {
   const double d = 0.1, h = 2 * d;
   const WallKernel<Dim> wall(h);
   const CubicSpline<Dim> kernel(h);
