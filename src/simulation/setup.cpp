@@ -75,6 +75,15 @@ Particles<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls, double
   return sample_slab<Dim>(*walls.terrain, slab, kind);
 }
 
+/// Arc length of the ground at x [m].
+template <int Dim>
+double ground_at(const Walls<Dim>& walls, double x) {
+  Vec<Dim> surface = Vec<Dim>::Zero();
+  surface[0] = x;
+  surface[up_axis<Dim>] = walls.terrain->height(x);
+  return walls.terrain->foot(surface).place[0];
+}
+
 ForceLaw law_of(const std::string& word) { return word == "paper" ? ForceLaw::paper : ForceLaw::air; }
 
 }  // namespace
@@ -99,8 +108,8 @@ template <int Dim>
 std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls, std::uint64_t first_id) {
   if (!scene.cover) return std::nullopt;
   CoverLayer layer;
-  layer.from = scene.cover->from;
-  layer.to = scene.cover->to < 0 ? walls.terrain->foot(walls.domain.upper).place[0] : scene.cover->to;
+  layer.from = std::max(scene.cover->from, ground_at(walls, walls.domain.lower[0]));
+  layer.to = scene.cover->to < 0 ? ground_at(walls, walls.domain.upper[0]) : scene.cover->to;
   layer.y = breadth_of(walls.domain);
   layer.depth = scene.cover->depth;
   layer.seed = scene.scene.seed;
