@@ -1,16 +1,20 @@
 #include "simulation/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "simulation/state_check.hpp"
 
 namespace spindrift {
 namespace {
 
-constexpr double longest_step = 0.01;  // [s]
+constexpr double longest_step = 0.01;   // [s]
+constexpr double shortest_step = 1e-7;  // [s]: a limit below ends the run, it is never clamped
 
 template <int Dim>
 double total_mass(const Particles<Dim>& particles) {
@@ -85,6 +89,10 @@ void Simulation<Dim>::choose_time_step() {
     if (speed > 0) limit(scene_.suspension->cfl * suspension_->grid().dx / speed, "air");
   }
   dt_ = report_.dt;
+  if (!(dt_ >= shortest_step))
+    throw Error(ExitCode::unstable,
+                fmt::format("unstable: the time step fell to {:.3g} s (limit: {}) in step {} at t = {:.6g} s", dt_,
+                            report_.limiter, n_steps_ + 1, time_));
 }
 
 /// Gravity on both media; the later stages add none.

@@ -28,6 +28,7 @@ void Neighbours<Dim>::find(const Particles<Dim>& particles, const CellList<Dim>&
   blocks_.resize((n + block_size - 1) / block_size);
   row_end_.resize(n);
   volume_sum_.resize(n);
+  full_.resize(n);
   boundary_.resize(n);
   gradient_sum_.resize(n);
   if (no_slip) no_slip_.resize(n);
@@ -143,6 +144,7 @@ void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::
     }
   }
   volume_sum_[i] += share;
+  full_[i] = std::max(1.0, share + input.particles.volume[i] * kernel.sigma);
   boundary_[i] = gradient;
   gradient_sum_[i] += 2 * gradient;
   if (input.no_slip) no_slip_[i] = drag;
@@ -166,7 +168,7 @@ std::size_t Neighbours<Dim>::Block::bytes() const {
 
 template <int Dim>
 std::size_t Neighbours<Dim>::bytes() const {
-  std::size_t n = spindrift::bytes(blocks_) + spindrift::bytes(row_end_) + spindrift::bytes(volume_sum_, no_slip_) +
+  std::size_t n = spindrift::bytes(blocks_) + spindrift::bytes(row_end_) + spindrift::bytes(volume_sum_, full_, no_slip_) +
                   spindrift::bytes(boundary_, gradient_sum_);
   for (const Block& block : blocks_) n += block.bytes();
   return n;

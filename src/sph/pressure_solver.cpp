@@ -18,17 +18,21 @@ constexpr float relaxation = 0.35f;
 /// that a particle with few neighbours, or coincident ones, is not flung away.
 constexpr double least_diagonal = 0.5;
 
-/// The most compression that one step takes back.
+/// The most compression that one step takes back, and the fastest [s^-1]: a particle that is wedged in can never be
+/// freed at once, and a correction that did not shrink with dt would throw it about the faster the shorter the steps.
 constexpr double largest_correction = 0.005;
+constexpr double fastest_correction = 2.5;
+
+/// The largest error of a single particle, in tolerances of the mean: the mean alone hides one that rings.
+constexpr double largest_to_mean = 50;
 
 /// Free volume from which on a particle may lose all of it in one step.
 constexpr double loose = 0.1;
 
-/// The largest dt D allowed at a volume sum.
-double allowed_compression(double volume_sum) {
+/// The largest dt D allowed where the volume sum is `free` below full.
+double allowed_compression(double free, double dt) {
   constexpr double k = compression_relaxation;
-  const double free = 1 - volume_sum;
-  if (free < 0) return std::max(k * free, -largest_correction);
+  if (free < 0) return std::max(k * free, -std::min(largest_correction, fastest_correction * dt));
   return free * (k + (1 - k) * std::min(1.0, free / loose));
 }
 
@@ -79,7 +83,7 @@ void PressureSolver<Dim>::prepare(const Particles<Dim>& particles, const Neighbo
         rate += 2 * v.dot(neighbours.boundary_gradient()[i]);
         const double diagonal =
             std::max(mobility * g_sum.squaredNorm() + volume * squares, mobility * least_diagonal / (h_ * h_));
-        excess_[i] = static_cast<float>(dt * rate - allowed_compression(neighbours.volume_sum()[i]));
+        excess_[i] = static_cast<float>(dt * rate - allowed_compression(neighbours.full()[i] - neighbours.volume_sum()[i], dt));
         pressure_[i] = previous_[i] = static_cast<float>(particles.pressure[i]);
         step_[i] = relaxation / static_cast<float>(dt * dt * diagonal);
         mobility_[i] = static_cast<float>(dt * dt * mobility);
@@ -102,8 +106,9 @@ SolveReport PressureSolver<Dim>::solve(Particles<Dim>& particles, const Neighbou
   float share = 1;  // of the relaxation, less where even plain steps lead away
   for (double last_error = 0;; last_error = report.error) {
     find_displacements(neighbours);
-    report.error = find_residuals(neighbours) / static_cast<double>(n);
-    const bool done = report.error <= tolerance && report.iterations > 0;
+    const auto [sum, largest] = find_residuals(neighbours);
+    report.error = sum / static_cast<double>(n);
+    const bool done = report.error <= tolerance && largest <= largest_to_mean * tolerance && report.iterations > 0;
     if (done || report.iterations == options_.max_iterations) break;
     if (report.error > last_error && report.iterations > 0) {
       if (pace < 2) share *= 0.7f;
@@ -138,10 +143,10 @@ void PressureSolver<Dim>::find_displacements(const Neighbours<Dim>& neighbours) 
       Neighbours<Dim>::block_size);
 }
 
-/// Returns the sum of the errors: the compression left over the target, and the expansion that pressure still causes,
+/// Returns sum and largest of the errors: the compression left over the target, and the expansion that pressure still causes,
 /// as far as lowering the pressure to zero could undo it. Without the second a stale first guess would push unseen.
 template <int Dim>
-double PressureSolver<Dim>::find_residuals(const Neighbours<Dim>& neighbours) {
+typename PressureSolver<Dim>::Residuals PressureSolver<Dim>::find_residuals(const Neighbours<Dim>& neighbours) {
   const std::size_t n = pressure_.size();
   parallel_for(
       n,
@@ -160,10 +165,19 @@ double PressureSolver<Dim>::find_residuals(const Neighbours<Dim>& neighbours) {
         residual_[i] = excess_[i] + own - others;
       },
       Neighbours<Dim>::block_size);
-  return parallel_sum(n, 0.0, [&](std::size_t i) {
-    const float r = residual_[i];
-    return static_cast<double>(r > 0 ? r : std::min(-r, relaxation * pressure_[i] / step_[i]));
-  });
+  return parallel_reduce(
+      n, Residuals{},
+      [&](std::size_t begin, std::size_t end) {
+        Residuals all;
+        for (std::size_t i = begin; i < end; ++i) {
+          const float r = residual_[i];
+          const auto error = static_cast<double>(r > 0 ? r : std::min(-r, relaxation * pressure_[i] / step_[i]));
+          all.sum += error;
+          all.largest = std::max(all.largest, error);
+        }
+        return all;
+      },
+      [](const Residuals& a, const Residuals& b) { return Residuals{a.sum + b.sum, std::max(a.largest, b.largest)}; });
 }
 
 template <int Dim>

@@ -27,8 +27,9 @@ inline constexpr double compression_relaxation = 0.4;
 
 /// Pressure p >= 0 acts by F_i = -V_i [sum_j V_j (p_i + p_j) grad W_ij + 2 p_i b_i], mass enters by a = F / m only.
 /// Its adjoint is the rate of compression D_i(v) = sum_j V_j (v_i - v_j) . grad W_ij + 2 v_i . b_i, b of Neighbours.
-/// One solve does the work of DFSPH's two: v += dt a(p) such that, with k = compression_relaxation and e = 1 - delta,
-///   dt D(v) <= max(k e, -0.005)                     where the volume sum delta is over 1,
+/// One solve does the work of DFSPH's two: v += dt a(p) such that, with k = compression_relaxation and e = full - delta
+/// (full: 1 but for snow wedged in, see Neighbours),
+///   dt D(v) <= max(k e, -0.005, -2.5 s^-1 dt)       where the volume sum delta is over full,
 ///   dt D(v) <= e [k + (1 - k) min(1, e / 0.1)]      else,
 /// with p > 0 only where equality holds. So full snow keeps its volume, compression is taken back over a few steps and
 /// not at once (which would fling the snow apart), and spray and free surfaces may approach until they are full. They
@@ -43,7 +44,8 @@ class PressureSolver {
 
   /// First guess and result: particles.pressure. boundary_impulse: += what walls and cover gave [kg m s^-1].
   /// Ends when the mean error r of dt D is at most compression_relaxation times density_tolerance and a hundredth of
-  /// divergence_tolerance, or after max_iterations; at least one iteration. Returns r.
+  /// divergence_tolerance, and no particle's error over 50 times that, or after max_iterations; at least one iteration.
+  /// Returns r.
   SolveReport solve(Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt,
                     Vec<Dim>& boundary_impulse);
 
@@ -52,7 +54,10 @@ class PressureSolver {
  private:
   void prepare(const Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt);
   void find_displacements(const Neighbours<Dim>& neighbours);
-  double find_residuals(const Neighbours<Dim>& neighbours);
+  struct Residuals {
+    double sum = 0, largest = 0;
+  };
+  Residuals find_residuals(const Neighbours<Dim>& neighbours);
   void update_pressures(float share, float momentum);
 
   PressureOptions options_;
