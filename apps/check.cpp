@@ -11,7 +11,8 @@
 namespace spindrift {
 namespace {
 
-template <class... T> void row(std::string_view name, fmt::format_string<T...> format, T&&... values) {
+template <class... T>
+void row(std::string_view name, fmt::format_string<T...> format, T&&... values) {
   fmt::print("{:<11} {}\n", name, fmt::format(format, std::forward<T>(values)...));
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 struct Benchmark {
   const char* scene;
-  double start;      ///< simulated time at which counting begins [s]
-  int n_steps;       ///< counted
+  double start;  ///< simulated time at which counting begins [s]
+  int n_steps;   ///< counted
 };
 
 constexpr Benchmark benchmarks[] = {{"paper/fig09a_bumpy.toml", 3.0, 200}, {"dam_break_3d.toml", 0.1, 40}};
@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
   if (threads.empty()) threads = {1, n_threads()};
   for (const Benchmark& benchmark : benchmarks) {
     const Scene scene = read_scene(std::string(SPINDRIFT_SOURCE_DIR "/configs/") + benchmark.scene);
-    for (const int n : threads) scene.scene.dim == 3 ? measure<3>(benchmark, scene, n) : measure<2>(benchmark, scene, n);
+    for (const int n : threads)
+      scene.scene.dim == 3 ? measure<3>(benchmark, scene, n) : measure<2>(benchmark, scene, n);
   }
 }

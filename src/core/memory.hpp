@@ -6,7 +6,8 @@
 
 namespace spindrift {
 
-template <class... T> std::size_t bytes(const std::vector<T>&... containers) {
+template <class... T>
+std::size_t bytes(const std::vector<T>&... containers) {
   return (std::size_t{0} + ... + (containers.capacity() * sizeof(T)));
 }
 

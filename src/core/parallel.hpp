@@ -27,7 +27,8 @@ class RangeBody {
 void parallel_blocks(std::size_t n, std::size_t block, RangeBody body);
 
 /// Runs f(i) for i in [0, n), `block` consecutive items a task.
-template <class F> void parallel_for(std::size_t n, F&& f, std::size_t block = 512) {
+template <class F>
+void parallel_for(std::size_t n, F&& f, std::size_t block = 512) {
   auto body = [&f](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) f(i);
   };
@@ -55,7 +56,8 @@ T parallel_reduce(std::size_t n, T zero, F&& f, Combine&& combine, std::size_t b
 }
 
 /// sum of f(i) over [0, n) in a fixed order.
-template <class T, class F> T parallel_sum(std::size_t n, T zero, F&& f) {
+template <class T, class F>
+T parallel_sum(std::size_t n, T zero, F&& f) {
   return parallel_reduce(
       n, zero,
       [&](std::size_t begin, std::size_t end) {
@@ -70,7 +72,8 @@ template <class T, class F> T parallel_sum(std::size_t n, T zero, F&& f) {
 }
 
 /// The largest f(i) over [0, n), at least `least`. A NaN anywhere gives NaN.
-template <class F> double parallel_max(std::size_t n, double least, F&& f) {
+template <class F>
+double parallel_max(std::size_t n, double least, F&& f) {
   const auto larger = [](double a, double b) { return (b > a || b != b) ? b : a; };
   return parallel_reduce(
       n, least,

@@ -1,6 +1,6 @@
 #pragma once
-/// The dense core as a boundary of the suspension (paper Sec. 4.2, R10): which cells the core fills, how fast they move,
-/// and how the air's answer goes back to the particles that fill them.
+/// The dense core as a boundary of the suspension (paper Sec. 4.2, R10): which cells the core fills, how fast they
+/// move, and how the air's answer goes back to the particles that fill them.
 
 #include <span>
 #include <vector>
@@ -31,7 +31,7 @@ class CoreCells {
     std::size_t cell;
     std::uint32_t particle;
   };
-  std::vector<Member> members_;          ///< of all cells with particles outside overlap, by (cell, particle)
+  std::vector<Member> members_;  ///< of all cells with particles outside overlap, by (cell, particle)
   std::vector<CoreCell<Dim>> cells_;
   std::vector<std::array<std::uint32_t, 2>> ranges_;  ///< of members_, one a core cell
 };

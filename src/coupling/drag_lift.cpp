@@ -113,9 +113,10 @@ void exchange_lift(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t i = region.particles[k];
     const double m = particles.mass[i];
-    const double per_mass = lift.law == ForceLaw::paper ? 1 : suspension.options().air_density * particles.volume[i] / m;
-    Curl<Dim> theta = lift.constant * dt * per_mass * (1 + region.loading[k]) *
-                      vorticity_at(suspension, particles.position[i]);
+    const double per_mass =
+        lift.law == ForceLaw::paper ? 1 : suspension.options().air_density * particles.volume[i] / m;
+    Curl<Dim> theta =
+        lift.constant * dt * per_mass * (1 + region.loading[k]) * vorticity_at(suspension, particles.position[i]);
     const double angle = theta.norm();
     if (angle > 1) theta /= angle;
     const Vec<Dim> w = region.velocity[k] - region.air_velocity(k);
@@ -135,12 +136,12 @@ void exchange_lift(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
           region.start_velocity[axis][s] + region.face_momentum[axis][s] / region.face_mass[axis][s];
 }
 
-#define INSTANTIATE(Dim)                                                                                        \
-  template Vec<Dim> damped_rotation<Dim>(const Vec<Dim>&, const Curl<Dim>&);                                    \
-  template void exchange_drag<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&,                  \
-                                   const ForceOptions&, double, double, double, bool);                          \
-  template void exchange_lift<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&,                  \
-                                   const Suspension<Dim>&, const ForceOptions&, double);
+#define INSTANTIATE(Dim)                                                                                               \
+  template Vec<Dim> damped_rotation<Dim>(const Vec<Dim>&, const Curl<Dim>&);                                           \
+  template void exchange_drag<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&, const ForceOptions&,    \
+                                   double, double, double, bool);                                                      \
+  template void exchange_lift<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&, const Suspension<Dim>&, \
+                                   const ForceOptions&, double);
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

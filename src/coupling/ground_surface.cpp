@@ -35,11 +35,11 @@ GroundSurface<Dim>::GroundSurface(const Terrain<Dim>& terrain, const MacGrid<Dim
     const Vec<Dim> x = grid.node(i);
     const Foot<Dim> foot = terrain.foot(x, reach_);
     distance_[i] = foot.distance;
-    if (std::abs(foot.distance) < reach_) near_.push_back({flat<Dim>(i, grid.nodes()), foot.distance, foot.place, i[0]});
+    if (std::abs(foot.distance) < reach_)
+      near_.push_back({flat<Dim>(i, grid.nodes()), foot.distance, foot.place, i[0]});
   });
-  std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
-    return a.column != b.column ? a.column < b.column : a.node < b.node;
-  });
+  std::sort(near_.begin(), near_.end(),
+            [](const Near& a, const Near& b) { return a.column != b.column ? a.column < b.column : a.node < b.node; });
   if (cover)
     for (const Near& near : near_) distance_[near.node] = near.terrain_distance - cover_height<Dim>(*cover, near.place);
 }
@@ -55,8 +55,8 @@ std::array<int, 2> GroundSurface<Dim>::follow(const Cover<Dim>& cover, std::span
     return static_cast<int>(std::clamp(std::floor((x - grid_.origin[0]) / grid_.dx), 0.0, grid_.cells[0] - 1.0));
   };
   const int begin = column(left - aside), end = column(right + aside) + 1;
-  const auto first = std::lower_bound(near_.begin(), near_.end(), begin,
-                                      [](const Near& near, int c) { return near.column < c; });
+  const auto first =
+      std::lower_bound(near_.begin(), near_.end(), begin, [](const Near& near, int c) { return near.column < c; });
   for (auto near = first; near != near_.end() && near->column <= end; ++near)
     distance_[near->node] = near->terrain_distance - cover_height<Dim>(cover, near->place);
   return {begin, end};

@@ -43,8 +43,8 @@ void classify_overlap(std::vector<std::uint8_t>& overlap, const DenseFlow<Dim>& 
   });
 }
 
-#define INSTANTIATE(Dim)                                                                                \
-  template double interior_number_density<Dim>(double, double);                                         \
+#define INSTANTIATE(Dim)                                                                                        \
+  template double interior_number_density<Dim>(double, double);                                                 \
   template void classify_overlap<Dim>(std::vector<std::uint8_t>&, const DenseFlow<Dim>&, const CoverView<Dim>&, \
                                       const Walls<Dim>&, double, double);
 INSTANTIATE(2)

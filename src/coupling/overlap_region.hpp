@@ -82,15 +82,15 @@ struct SmokeScratch {
 /// Working state of one step's exchange. k counts the region's particles, not the dense flow's.
 template <int Dim>
 struct OverlapRegion {
-  std::vector<std::uint32_t> particles;              ///< numbers in the dense flow, ascending
+  std::vector<std::uint32_t> particles;                ///< numbers in the dense flow, ascending
   std::array<std::vector<Shares<Dim>>, Dim> on_faces;  ///< [axis][k]
-  std::vector<Shares<Dim>> on_cells;                 ///< [k]
+  std::vector<Shares<Dim>> on_cells;                   ///< [k]
   std::array<PointSet<Dim>, Dim> faces;
   PointSet<Dim> cells;
-  std::array<std::vector<double>, Dim> face_mass;      ///< m_f = air + smoke of the face's control volume [kg]
-  std::array<std::vector<double>, Dim> start_velocity; ///< u_f before the exchange [m s^-1]
-  std::array<std::vector<double>, Dim> face_velocity;  ///< u_f, changed by drag and lift [m s^-1]
-  std::array<std::vector<double>, Dim> face_momentum;  ///< given to the face so far [kg m s^-1]
+  std::array<std::vector<double>, Dim> face_mass;       ///< m_f = air + smoke of the face's control volume [kg]
+  std::array<std::vector<double>, Dim> start_velocity;  ///< u_f before the exchange [m s^-1]
+  std::array<std::vector<double>, Dim> face_velocity;   ///< u_f, changed by drag and lift [m s^-1]
+  std::array<std::vector<double>, Dim> face_momentum;   ///< given to the face so far [kg m s^-1]
 
   std::vector<Vec<Dim>> velocity;   ///< v of the particle, changed by drag and lift [m s^-1]
   std::vector<double> slip;         ///< |w| before drag [m s^-1]

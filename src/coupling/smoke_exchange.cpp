@@ -8,7 +8,9 @@ namespace spindrift {
 namespace {
 
 /// (1 - e^-x) / x, right also at x = 0.
-double relaxed_share(double x) { return x > 1e-12 ? -std::expm1(-x) / x : 1 - x / 2; }
+double relaxed_share(double x) {
+  return x > 1e-12 ? -std::expm1(-x) / x : 1 - x / 2;
+}
 
 /// A face of a cell that takes part in the exchange.
 struct CellFace {
@@ -18,10 +20,10 @@ struct CellFace {
 };
 
 template <int Dim>
-CellFace cell_face(OverlapRegion<Dim>& region, const Suspension<Dim>& suspension, std::size_t cell, int axis, int side) {
+CellFace cell_face(OverlapRegion<Dim>& region, const Suspension<Dim>& suspension, std::size_t cell, int axis,
+                   int side) {
   const MacGrid<Dim>& grid = suspension.grid();
-  const std::size_t face =
-      flat<Dim>(shifted<Dim>(unflat<Dim>(cell, grid.cells), axis, side), grid.faces(axis));
+  const std::size_t face = flat<Dim>(shifted<Dim>(unflat<Dim>(cell, grid.cells), axis, side), grid.faces(axis));
   if (suspension.face_mass(axis, face) <= 0) return {.closed = true};
   const std::uint32_t slot = region.faces[axis].slot(face);
   if (slot >= region.face_velocity[axis].size()) {
@@ -96,7 +98,9 @@ double generated_smoke(const GenerationOptions& generation, double slip, double 
   return generation.constant * surface * std::pow(slip, 1.7) * dt * part * mean;
 }
 
-double mean_slip(double slip, double b) { return b > 1e-9 ? slip * std::log1p(b) / b : slip; }
+double mean_slip(double slip, double b) {
+  return b > 1e-9 ? slip * std::log1p(b) / b : slip;
+}
 
 template <int Dim>
 void exchange_smoke(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Particles<Dim>& particles,
@@ -108,7 +112,8 @@ void exchange_smoke(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const P
   if (options.generation) {
     for (std::size_t k = 0; k < region.size(); ++k) {
       const double spare = std::max(0.0, particles.mass[region.particles[k]] - options.min_mass);
-      const double made = generated_smoke(*options.generation, region.slip[k], slowing(k), surface<Dim>(options.radius), dt);
+      const double made =
+          generated_smoke(*options.generation, region.slip[k], slowing(k), surface<Dim>(options.radius), dt);
       if (region.on_cells[k].any()) make_smoke(region, exchange, k, std::min(made, spare));
     }
   }
@@ -161,13 +166,13 @@ void book_faces(const OverlapRegion<Dim>& region, Exchange<Dim>& exchange) {
       exchange.on_grid.momentum[axis].push_back({region.faces[axis].points()[s], region.face_momentum[axis][s]});
 }
 
-#define INSTANTIATE(Dim)                                                                                           \
-  template double surface<Dim>(double);                                                                            \
-  template double section<Dim>(double);                                                                            \
-  template void exchange_smoke<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&,                     \
-                                    const Suspension<Dim>&, const SmokeOptions&, double);                          \
-  template std::size_t dissolve_spent<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&,             \
-                                           const Suspension<Dim>&, double);                                        \
+#define INSTANTIATE(Dim)                                                                               \
+  template double surface<Dim>(double);                                                                \
+  template double section<Dim>(double);                                                                \
+  template void exchange_smoke<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&,        \
+                                    const Suspension<Dim>&, const SmokeOptions&, double);              \
+  template std::size_t dissolve_spent<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&, \
+                                           const Suspension<Dim>&, double);                            \
   template void book_faces<Dim>(const OverlapRegion<Dim>&, Exchange<Dim>&);
 INSTANTIATE(2)
 INSTANTIATE(3)

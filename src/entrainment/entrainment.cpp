@@ -24,7 +24,8 @@ constexpr double least_cos_slope = 0.1;
 constexpr double passed = std::numeric_limits<double>::infinity();
 
 /// The dense flow and the cover over a ground bin and the bins that touch it.
-template <int Dim> struct Surroundings {
+template <int Dim>
+struct Surroundings {
   static constexpr std::size_t n_bins = Dim == 2 ? 3 : 9;
   std::array<std::span<const std::uint32_t>, n_bins> dense{}, cover{};
   double lowest = std::numeric_limits<double>::infinity();  ///< normal distance of the lowest dense particle [m]
@@ -59,7 +60,8 @@ bool in_contact(const Cover<Dim>& cover, std::uint32_t slot, const Surroundings<
 }
 
 /// Whether no live cover lies above the slot, within 45 degrees of its normal.
-template <int Dim> bool exposed(const Cover<Dim>& cover, std::uint32_t slot, const Surroundings<Dim>& around) {
+template <int Dim>
+bool exposed(const Cover<Dim>& cover, std::uint32_t slot, const Surroundings<Dim>& around) {
   const double radius = exposure_radius * cover.spacing;
   const Foot<Dim>& foot = cover.foot[slot];
   for (const auto& slots : around.cover)
@@ -75,7 +77,8 @@ template <int Dim> bool exposed(const Cover<Dim>& cover, std::uint32_t slot, con
 
 }  // namespace
 
-template <int Dim> struct Entrainment<Dim>::View {
+template <int Dim>
+struct Entrainment<Dim>::View {
   const Cover<Dim>& cover;
   const Particles<Dim>& dense;
   const Columns<Dim>& columns;
@@ -84,7 +87,8 @@ template <int Dim> struct Entrainment<Dim>::View {
   double viscosity;  ///< eta [Pa s]
 };
 
-template <int Dim> void Entrainment<Dim>::find_patches(const Cover<Dim>& cover, const Columns<Dim>& columns) {
+template <int Dim>
+void Entrainment<Dim>::find_patches(const Cover<Dim>& cover, const Columns<Dim>& columns) {
   patches_.clear();
   std::uint32_t n = 0;
   const auto add = [&](const GroundBin<Dim>& bin) {
@@ -105,7 +109,8 @@ template <int Dim> void Entrainment<Dim>::find_patches(const Cover<Dim>& cover, 
   candidates_.resize(n);
 }
 
-template <int Dim> void Entrainment<Dim>::find_candidates(Patch& patch, const View& view) {
+template <int Dim>
+void Entrainment<Dim>::find_candidates(Patch& patch, const View& view) {
   const Cover<Dim>& cover = view.cover;
   const Column<Dim>* column = view.columns.find(patch.bin);
   const Surroundings<Dim> around(patch.bin, cover, view.columns);

@@ -41,7 +41,8 @@ struct EntrainmentStep {
   std::uint32_t number = 0;  ///< of the step; only the Bernoulli rule draws anew each step
 };
 
-template <int Dim> class Entrainment {
+template <int Dim>
+class Entrainment {
  public:
   explicit Entrainment(const EntrainmentOptions& options) : options_(options) {}
 

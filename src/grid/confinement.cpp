@@ -78,7 +78,8 @@ void Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area,
   const auto turns = [&](std::size_t r) { return turning_[r] != 0; };
   const auto turns_below = [&](std::size_t r) {
     bool any = turns(r);
-    for (std::size_t k = 1; k < Dim; ++k) any = any || (r * row_length >= stride[k] && turns(r - stride[k] / row_length));
+    for (std::size_t k = 1; k < Dim; ++k)
+      any = any || (r * row_length >= stride[k] && turns(r - stride[k] / row_length));
     return any;
   };
   const auto turns_near = [&](std::size_t r) {

@@ -24,8 +24,8 @@ class Confinement {
  private:
   std::array<Field<Dim>, Dim> centre_;  ///< velocity at cell centres, then the force
   std::array<Field<Dim>, n_curl<Dim>> curl_;
-  Field<Dim> size_;   ///< |omega|
-  Field<Dim> inner_;  ///< 1: all faces of the cell have a flow area
+  Field<Dim> size_;                    ///< |omega|
+  Field<Dim> inner_;                   ///< 1: all faces of the cell have a flow area
   std::vector<std::uint8_t> turning_;  ///< of each row: 1 where its air turns
 };
 

@@ -16,7 +16,7 @@ struct MultigridLevel {
   std::vector<float> inverse_diagonal;              ///< 0: the cell takes no part
   std::vector<float> solution, right_side;
   std::vector<RowSpan> spans;
-  std::vector<YieldTerm<Dim>> yields;               ///< in no conductance, but in the diagonal
+  std::vector<YieldTerm<Dim>> yields;  ///< in no conductance, but in the diagonal
 
   explicit MultigridLevel(const Index<Dim>& cells);
 };
@@ -26,8 +26,8 @@ template <int Dim>
 void set_diagonal(MultigridLevel<Dim>& level);
 
 /// Half the sum of the fine conductances that make up each coarse face. An odd number of fine cells leaves the last
-/// block half outside: its upper faces are those of its only layer, at the layer's own distance. A coarse cell yields as
-/// much as its fine cells together.
+/// block half outside: its upper faces are those of its only layer, at the layer's own distance. A coarse cell yields
+/// as much as its fine cells together.
 template <int Dim>
 void coarsen(MultigridLevel<Dim>& coarse, const MultigridLevel<Dim>& fine);
 

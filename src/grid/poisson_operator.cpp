@@ -97,10 +97,11 @@ void PoissonOperator<Dim>::find_yields(const FaceField<Dim>& open, const Field<D
                                        std::span<const HeavyCell<Dim>> heavy, double cell_volume) {
   yields.clear();
   for (const HeavyCell<Dim>& core : heavy) {
-    for_each_open_neighbour<Dim>(core.cell, open, kind, [&](int axis, const Index<Dim>& face, const Index<Dim>& cell, int) {
-      const double fraction = open[axis][face];
-      yields.push_back({cell, layout.at(cell), fraction * fraction * cell_volume / core.mass});
-    });
+    for_each_open_neighbour<Dim>(
+        core.cell, open, kind, [&](int axis, const Index<Dim>& face, const Index<Dim>& cell, int) {
+          const double fraction = open[axis][face];
+          yields.push_back({cell, layout.at(cell), fraction * fraction * cell_volume / core.mass});
+        });
   }
   merge_yields(yields);
 }

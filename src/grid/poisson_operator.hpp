@@ -30,10 +30,10 @@ struct YieldTerm {
 template <int Dim>
 void merge_yields(std::vector<YieldTerm<Dim>>& yields);
 
-/// (A phi)_c = sum_f c_f (phi_c - phi_neighbour) + y_c phi_c,  c_f = open_f / rho_f [m3/kg], zero on faces whose velocity
-/// is given, y_c the yield of the core's faces.
-/// phi = p dt / dx is the potential; beyond an open side phi = 0 at half a cell, c_f = 2 open_f / rho_c.
-/// Symmetric; zero rows where a cell is not open. Vectors are in the parity layout.
+/// (A phi)_c = sum_f c_f (phi_c - phi_neighbour) + y_c phi_c,  c_f = open_f / rho_f [m3/kg], zero on faces whose
+/// velocity is given, y_c the yield of the core's faces. phi = p dt / dx is the potential; beyond an open side phi = 0
+/// at half a cell, c_f = 2 open_f / rho_c. Symmetric; zero rows where a cell is not open. Vectors are in the parity
+/// layout.
 template <int Dim>
 struct PoissonOperator {
   ParityLayout<Dim> layout;
@@ -57,16 +57,17 @@ struct PoissonOperator {
   std::size_t bytes() const;
 
  private:
-  void find_yields(const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
-                   std::span<const HeavyCell<Dim>> heavy, double cell_volume);
+  void find_yields(const FaceField<Dim>& open, const Field<Dim, CellKind>& kind, std::span<const HeavyCell<Dim>> heavy,
+                   double cell_volume);
 
   std::vector<double> resistance_;  ///< rho of open cells, infinite elsewhere; beyond the sides 0 (open) or infinite
 };
 
-/// Calls f(axis, face, open neighbour, sign) for the faces of a core cell towards open cells; sign +1: the neighbour lies
-/// above.
+/// Calls f(axis, face, open neighbour, sign) for the faces of a core cell towards open cells; sign +1: the neighbour
+/// lies above.
 template <int Dim, class F>
-void for_each_open_neighbour(const Index<Dim>& core, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind, F&& f) {
+void for_each_open_neighbour(const Index<Dim>& core, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
+                             F&& f) {
   for (int axis = 0; axis < Dim; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const Index<Dim> other = shifted<Dim>(core, axis, 2 * side - 1), face = shifted<Dim>(core, axis, side);

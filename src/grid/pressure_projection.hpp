@@ -46,7 +46,8 @@ class PressureProjection {
   /// A component of open cells that reaches no open side gets its right-hand side's mean subtracted (RELIABILITY F8)
   /// and a pressure of mean zero. No flux to remove: no iteration, u unchanged. Source: paper Eqs. (1), (2), Sec. 4.3.
   /// Departures: R9, R10.
-  /// heavy    in: core cells, no cell twice. Their faces towards open cells yield to the pressure with the cell's mass m,
+  /// heavy    in: core cells, no cell twice. Their faces towards open cells yield to the pressure with the cell's mass
+  /// m,
   ///              u_f += dt p open_f A / m away from the air, so that the impulse p open_f A dt that the core takes and
   ///              the air's motion belong together at any mass ratio (R10). Cores that are not listed do not yield
   ProjectionResult project(FaceField<Dim>& u, const Field<Dim>& density, const FaceField<Dim>& open,

@@ -21,7 +21,8 @@ class Digest {
 
   Digest& bytes(std::span<const std::byte> raw);
   Digest& add(std::string_view text);
-  template <class T> Digest& add(std::span<const T> values) {
+  template <class T>
+  Digest& add(std::span<const T> values) {
     static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>, "no padding");
     return piece(std::as_bytes(values));
   }

@@ -17,7 +17,8 @@ struct Refused {
   std::string what;
 };
 
-template <class T> T checked(T result, const char* what) {
+template <class T>
+T checked(T result, const char* what) {
   if (result < 0) throw Refused{what};
   return result;
 }
@@ -60,7 +61,8 @@ class Session {
 };
 
 /// The type of T in memory and, little-endian, in files.
-template <class T> hid_t type_of() {
+template <class T>
+hid_t type_of() {
   if constexpr (std::is_same_v<T, float>) return H5T_IEEE_F32LE;
   if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
   if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_STD_U8LE;

@@ -68,7 +68,8 @@ namespace {
 }
 
 /// f() until it is not interrupted; f returns a negative number on failure.
-template <class F> auto retried(const char* call, F&& f) {
+template <class F>
+auto retried(const char* call, F&& f) {
   for (;;) {
     const int injected = WatchedCalls::error_of(call);
     if (injected == EINTR) continue;

@@ -48,7 +48,8 @@ Handle open_attribute(hid_t object, const char* name) {
   return {H5Aopen(object, name, H5P_DEFAULT), H5Aclose, name};
 }
 
-template <class T, std::size_t n> std::array<T, n> read_numbers(hid_t object, const char* name) {
+template <class T, std::size_t n>
+std::array<T, n> read_numbers(hid_t object, const char* name) {
   const Handle attribute = open_attribute(object, name);
   const Handle where(H5Aget_space(attribute), H5Sclose, name), type(H5Aget_type(attribute), H5Tclose, name);
   if (H5Sget_simple_extent_npoints(where) != static_cast<hssize_t>(n) || H5Tequal(type, type_of<T>()) <= 0)

@@ -109,7 +109,8 @@ void write_dataset(hid_t group, const std::string& name, std::span<const T> valu
     checked(H5Dwrite(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name.c_str());
 }
 
-template <class T> void write_list(hid_t group, const std::string& name, std::span<const T> values) {
+template <class T>
+void write_list(hid_t group, const std::string& name, std::span<const T> values) {
   const hsize_t n = values.size();
   write_dataset(group, name, values, {&n, 1}, 1);
 }
@@ -186,7 +187,8 @@ Handle create_root(hid_t file, const std::string& type) {
 }
 
 /// build(), with what the library or the memory refuses told as an Error.
-template <class F> std::vector<std::byte> told(F&& build) {
+template <class F>
+std::vector<std::byte> told(F&& build) {
   const Session session;
   try {
     return build();

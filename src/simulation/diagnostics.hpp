@@ -1,5 +1,6 @@
 #pragma once
-/// The table of steps, diagnostics.csv: one row a step, its last column the name of the limit that ruled dt (written by Recorder).
+/// The table of steps, diagnostics.csv: one row a step, its last column the name of the limit that ruled dt (written by
+/// Recorder).
 
 #include <string>
 #include <string_view>

@@ -30,8 +30,7 @@ std::vector<Member> members_by_id(const Simulation<Dim>& simulation) {
 /// Calls f(member, its particles) in the order of ids.
 template <int Dim, class F>
 void for_each_member(const Simulation<Dim>& simulation, const std::vector<Member>& members, F&& f) {
-  for (const Member& m : members)
-    f(m, m.cover ? simulation.cover()->particles : simulation.dense()->particles);
+  for (const Member& m : members) f(m, m.cover ? simulation.cover()->particles : simulation.dense()->particles);
 }
 
 template <class T, int Dim, class F>
@@ -82,22 +81,24 @@ std::vector<std::byte> SmokeFrame::file() const {
 template <int Dim>
 ParticleFrame particle_frame(const Simulation<Dim>& s) {
   const std::vector<Member> members = members_by_id(s);
-  const auto in_overlap = [&](const Member& m) { return !m.cover && m.index < s.overlap().size() && s.overlap()[m.index]; };
+  const auto in_overlap = [&](const Member& m) {
+    return !m.cover && m.index < s.overlap().size() && s.overlap()[m.index];
+  };
   ParticleFrame frame;
   frame.attributes = attributes_of(s);
-  frame.positions = vectors_of(s, members, "Points", [](const Member& m, const auto& p) { return p.position[m.index]; });
+  frame.positions =
+      vectors_of(s, members, "Points", [](const Member& m, const auto& p) { return p.position[m.index]; });
   frame.arrays.push_back(
       vectors_of(s, members, "velocity", [](const Member& m, const auto& p) { return p.velocity[m.index]; }));
-  frame.arrays.push_back(array_of<float>(s, members, "density", [](const Member& m, const auto& p) {
-    return p.mass[m.index] / p.volume[m.index];
-  }));
+  frame.arrays.push_back(array_of<float>(
+      s, members, "density", [](const Member& m, const auto& p) { return p.mass[m.index] / p.volume[m.index]; }));
   frame.arrays.push_back(array_of<float>(s, members, "pressure", [](const Member& m, const auto& p) {
     return p.pressure[m.index] + p.divergence_pressure[m.index];
   }));
   frame.arrays.push_back(
       array_of<float>(s, members, "mass", [](const Member& m, const auto& p) { return p.mass[m.index]; }));
-  frame.arrays.push_back(array_of<float>(
-      s, members, "entrained_at", [](const Member& m, const auto& p) { return p.entrained_at[m.index]; }));
+  frame.arrays.push_back(array_of<float>(s, members, "entrained_at",
+                                         [](const Member& m, const auto& p) { return p.entrained_at[m.index]; }));
   frame.arrays.push_back(
       array_of<std::uint8_t>(s, members, "layer", [](const Member& m, const auto&) { return m.cover; }));
   frame.arrays.push_back(
@@ -155,9 +156,9 @@ std::string state_digest(const Simulation<Dim>& s) {
   return digest.hex();
 }
 
-#define INSTANTIATE(Dim)                                                  \
-  template ParticleFrame particle_frame<Dim>(const Simulation<Dim>&);     \
-  template SmokeFrame smoke_frame<Dim>(const Simulation<Dim>&);           \
+#define INSTANTIATE(Dim)                                              \
+  template ParticleFrame particle_frame<Dim>(const Simulation<Dim>&); \
+  template SmokeFrame smoke_frame<Dim>(const Simulation<Dim>&);       \
   template std::string state_digest<Dim>(const Simulation<Dim>&);
 INSTANTIATE(2)
 INSTANTIATE(3)

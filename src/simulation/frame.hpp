@@ -1,6 +1,6 @@
 #pragma once
-/// The state of a simulation as arrays that own their values: what a frame file holds, ordered by id and free of how the
-/// simulation stores it.
+/// The state of a simulation as arrays that own their values: what a frame file holds, ordered by id and free of how
+/// the simulation stores it.
 
 #include <string>
 #include <vector>
@@ -29,7 +29,8 @@ struct SmokeFrame {
 template <int Dim>
 ParticleFrame particle_frame(const Simulation<Dim>& simulation);
 
-/// On cell centres: smoke density [kg/m^3], air velocity [m/s], solid (1: no open volume).   Pre: there is a suspension.
+/// On cell centres: smoke density [kg/m^3], air velocity [m/s], solid (1: no open volume).   Pre: there is a
+/// suspension.
 template <int Dim>
 SmokeFrame smoke_frame(const Simulation<Dim>& simulation);
 

@@ -11,13 +11,13 @@ namespace spindrift {
 
 /// Masses since the start [kg], in 2D per metre of width.
 struct MassLedger {
-  double initial = 0;           ///< released snow, cover and smoke at the start
-  double generated = 0;         ///< particles to smoke
-  double adhered = 0;           ///< smoke to particles
-  double entrained = 0;         ///< cover to dense flow
-  double particle_outflow = 0;  ///< dense flow out of the domain
-  double smoke_outflow = 0;     ///< smoke out of the domain
-  double deposited = 0;         ///< smoke that settled on the ground
+  double initial = 0;                                          ///< released snow, cover and smoke at the start
+  double generated = 0;                                        ///< particles to smoke
+  double adhered = 0;                                          ///< smoke to particles
+  double entrained = 0;                                        ///< cover to dense flow
+  double particle_outflow = 0;                                 ///< dense flow out of the domain
+  double smoke_outflow = 0;                                    ///< smoke out of the domain
+  double deposited = 0;                                        ///< smoke that settled on the ground
   std::size_t n_entrained = 0, n_outflow = 0, n_vanished = 0;  ///< particles; vanished: wholly turned into smoke (R17)
 
   double outflow() const { return particle_outflow + smoke_outflow; }
@@ -30,17 +30,17 @@ struct StepReport {
   std::string_view limiter;  ///< what ruled dt
   std::size_t n_overlap = 0, n_core_cells = 0;
 
-  VelocitySolve<Dim> dense;                       ///< iterations, errors and the boundary's impulse on the dense flow
-  Vec<Dim> wall_contact = Vec<Dim>::Zero();       ///< walls on particles that ended in them
-  Vec<Dim> bed_friction = Vec<Dim>::Zero();       ///< bed on the dense flow
+  VelocitySolve<Dim> dense;                  ///< iterations, errors and the boundary's impulse on the dense flow
+  Vec<Dim> wall_contact = Vec<Dim>::Zero();  ///< walls on particles that ended in them
+  Vec<Dim> bed_friction = Vec<Dim>::Zero();  ///< bed on the dense flow
   Vec<Dim> gravity_on_dense = Vec<Dim>::Zero();
   Vec<Dim> gravity_on_smoke = Vec<Dim>::Zero();
   Vec<Dim> exchange_on_particles = Vec<Dim>::Zero();
   Vec<Dim> exchange_on_grid = Vec<Dim>::Zero();
   Vec<Dim> exchange_on_fixed_faces = Vec<Dim>::Zero();  ///< on ground and core, see Exchange
-  Vec<Dim> core_reaction = Vec<Dim>::Zero();      ///< air on the dense core
-  Vec<Dim> outflow = Vec<Dim>::Zero();            ///< with particles that left
-  Vec<Dim> ground_on_air = Vec<Dim>::Zero();      ///< air that the sinking cover uncovers
+  Vec<Dim> core_reaction = Vec<Dim>::Zero();            ///< air on the dense core
+  Vec<Dim> outflow = Vec<Dim>::Zero();                  ///< with particles that left
+  Vec<Dim> ground_on_air = Vec<Dim>::Zero();            ///< air that the sinking cover uncovers
   SuspensionBudget<Dim> suspension;
 };
 

@@ -11,14 +11,14 @@ namespace spindrift {
 /// What a picture shows, copied from the simulation, so that it can be drawn elsewhere while the simulation goes on.
 struct PreviewFrame {
   Box<2> world;
-  int width = 1380;  ///< [px]
-  double time = 0;   ///< [s]
-  std::vector<Vec<2>> ground;                   ///< the terrain's surface, left to right; may be empty
-  std::vector<Vec<2>> cover_base, cover_top;    ///< may be empty
-  std::vector<Vec<2>> snow;                     ///< centres of the dense flow's particles, by id
-  std::vector<std::uint8_t> snow_kind;          ///< 0 released, 1 entrained
-  double snow_radius = 0;                       ///< [m]
-  std::vector<float> smoke;                     ///< [kg m^-3]; may be empty
+  int width = 1380;                           ///< [px]
+  double time = 0;                            ///< [s]
+  std::vector<Vec<2>> ground;                 ///< the terrain's surface, left to right; may be empty
+  std::vector<Vec<2>> cover_base, cover_top;  ///< may be empty
+  std::vector<Vec<2>> snow;                   ///< centres of the dense flow's particles, by id
+  std::vector<std::uint8_t> snow_kind;        ///< 0 released, 1 entrained
+  double snow_radius = 0;                     ///< [m]
+  std::vector<float> smoke;                   ///< [kg m^-3]; may be empty
   std::vector<std::uint8_t> solid;
   Index<2> smoke_shape{};
   double dx = 1;

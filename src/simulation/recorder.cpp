@@ -25,8 +25,8 @@ void make_folder(const RunOptions& options, const OutputSection& output) {
     try {
       f();
     } catch (const fs::filesystem_error& failure) {
-      throw Error(ExitCode::io_failed, fmt::format("cannot prepare {}: {}", failure.path1().string(),
-                                                   failure.code().message()));
+      throw Error(ExitCode::io_failed,
+                  fmt::format("cannot prepare {}: {}", failure.path1().string(), failure.code().message()));
     }
   };
   try_io([&] {
@@ -50,9 +50,7 @@ std::size_t open_cells(const Suspension<Dim>& suspension) {
 
 template <int Dim>
 Recorder<Dim>::Recorder(const Scene& scene, const RunOptions& options)
-    : options_(options),
-      output_(scene.output),
-      start_(std::chrono::steady_clock::now()) {
+    : options_(options), output_(scene.output), start_(std::chrono::steady_clock::now()) {
   make_folder(options, scene.output);
   commit(options_.folder / "scene.toml", write_scene(scene));
 }

@@ -7,11 +7,14 @@
 namespace spindrift {
 namespace {
 
-template <class T> constexpr bool is_optional = false;
-template <class T> constexpr bool is_optional<std::optional<T>> = true;
+template <class T>
+constexpr bool is_optional = false;
+template <class T>
+constexpr bool is_optional<std::optional<T>> = true;
 
 /// The member at the end of a path of member pointers, through the sections on the way.
-template <auto First, auto... Rest, class S> auto& member(S& owner) {
+template <auto First, auto... Rest, class S>
+auto& member(S& owner) {
   auto& next = owner.*First;
   if constexpr (sizeof...(Rest) == 0) {
     return next;
@@ -22,7 +25,8 @@ template <auto First, auto... Rest, class S> auto& member(S& owner) {
   }
 }
 
-template <auto First, auto... Rest, class S> bool exists(const S& owner) {
+template <auto First, auto... Rest, class S>
+bool exists(const S& owner) {
   if constexpr (is_optional<std::remove_cvref_t<decltype(owner.*First)>>) {
     if (!(owner.*First)) return false;
     if constexpr (sizeof...(Rest) > 0) return exists<Rest...>(*(owner.*First));
@@ -30,7 +34,8 @@ template <auto First, auto... Rest, class S> bool exists(const S& owner) {
   return true;
 }
 
-template <auto First, auto... Rest, class S> void create(S& owner) {
+template <auto First, auto... Rest, class S>
+void create(S& owner) {
   if constexpr (is_optional<std::remove_cvref_t<decltype(owner.*First)>>) {
     if (!(owner.*First)) (owner.*First).emplace();
     if constexpr (sizeof...(Rest) > 0) create<Rest...>(*(owner.*First));
@@ -43,7 +48,8 @@ struct Registry {
 };
 
 /// Adds one section, and its keys one by one; Path leads from the Scene to the section.
-template <auto... Path> class Rows {
+template <auto... Path>
+class Rows {
  public:
   Rows(Registry& registry, std::string_view path, std::string_view doc) : registry_(registry), path_(path) {
     registry.sections.push_back({path, doc, [](const Scene& scene) { return exists<Path...>(scene); },
@@ -60,7 +66,8 @@ template <auto... Path> class Rows {
               std::string_view source = "") {
     return add<Member>(name, "", {}, std::move(allowed), doc, source);
   }
-  template <auto Member> Rows& plain(std::string_view name, std::string_view doc, std::string_view source = "") {
+  template <auto Member>
+  Rows& plain(std::string_view name, std::string_view doc, std::string_view source = "") {
     return add<Member>(name, "", {}, {}, doc, source);
   }
 
@@ -256,7 +263,8 @@ void apply_paper(Scene& scene) {
   scene.coupling->generation->threshold_speed = 0;
 }
 
-template <class Row> const Row* find(const std::vector<Row>& rows, std::string_view path) {
+template <class Row>
+const Row* find(const std::vector<Row>& rows, std::string_view path) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.path == path; });
   return row == rows.end() ? nullptr : &*row;
 }

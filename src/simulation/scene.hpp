@@ -12,7 +12,7 @@
 namespace spindrift {
 
 struct SceneSection {
-  std::string name;                 ///< of the run folder and the pictures; default: the file's stem
+  std::string name;  ///< of the run folder and the pictures; default: the file's stem
   int dim = 2;
   std::uint64_t seed = 1;
   std::string preset = "physical";  ///< "paper" | "physical"
@@ -28,55 +28,55 @@ struct DomainSection {
 };
 
 struct TerrainSection {
-  std::string shape = "slope";           ///< "slope" | "bumps" | "cliff" | "polyline"
-  std::array<double, 2> start{0, 0};     ///< upper left end of the slope (x, z) [m]
-  double angle = 0.5934119456780721;     ///< of the slope [rad], default 34 deg
-  double drop = 50;                      ///< height of the whole slope from start to its foot [m]
-  double runout_angle = 0;               ///< of the ground beyond the foot [rad]
-  double transition_radius = 15;         ///< of the arc between slope and run-out [m]
-  double bump_height = 1;                ///< crest to trough [m] (bumps)
-  double bump_length = 15;               ///< wavelength along the slope [m] (bumps)
-  double cliff_at = 20;                  ///< drop from start at which the cliff begins [m] (cliff)
-  double cliff_height = 20;              ///< [m] (cliff)
+  std::string shape = "slope";                ///< "slope" | "bumps" | "cliff" | "polyline"
+  std::array<double, 2> start{0, 0};          ///< upper left end of the slope (x, z) [m]
+  double angle = 0.5934119456780721;          ///< of the slope [rad], default 34 deg
+  double drop = 50;                           ///< height of the whole slope from start to its foot [m]
+  double runout_angle = 0;                    ///< of the ground beyond the foot [rad]
+  double transition_radius = 15;              ///< of the arc between slope and run-out [m]
+  double bump_height = 1;                     ///< crest to trough [m] (bumps)
+  double bump_length = 15;                    ///< wavelength along the slope [m] (bumps)
+  double cliff_at = 20;                       ///< drop from start at which the cliff begins [m] (cliff)
+  double cliff_height = 20;                   ///< [m] (cliff)
   std::vector<std::array<double, 2>> points;  ///< vertices (x, z) [m] (polyline)
 };
 
 /// Snow released at the start, on a lattice of the particle spacing.
 struct ReleaseSection {
-  std::string shape = "slab";         ///< "slab": lies on the ground or cover | "box": an axis-aligned box
-  double at = 5;                      ///< arc length along the ground of the slab's upper end [m]
-  double length = 5;                  ///< of the slab along the ground [m]
-  double thickness = 2;               ///< of the slab, normal to the ground [m]
-  std::vector<double> lower, upper;   ///< corners of the box [m]
-  std::vector<double> velocity;       ///< initial velocity [m s^-1], default 0
+  std::string shape = "slab";        ///< "slab": lies on the ground or cover | "box": an axis-aligned box
+  double at = 5;                     ///< arc length along the ground of the slab's upper end [m]
+  double length = 5;                 ///< of the slab along the ground [m]
+  double thickness = 2;              ///< of the slab, normal to the ground [m]
+  std::vector<double> lower, upper;  ///< corners of the box [m]
+  std::vector<double> velocity;      ///< initial velocity [m s^-1], default 0
 };
 
 struct DenseFlowSection {
-  std::string solver = "dfsph";       ///< "dfsph" | "wcsph"
-  double support_radius = 0.21;       ///< h [m]; the spacing is h / 2
-  double density = 300;               ///< [kg m^-3]
-  double viscosity = 0;               ///< mu [Pa s]
-  std::string wall = "slip";          ///< "slip" | "no_slip": of the viscous stress at walls
-  double density_tolerance = 5e-4;    ///< mean compression allowed
-  double divergence_tolerance = 1e-1; ///< mean rate of compression allowed, per step: |dt div v| / ... see docs
+  std::string solver = "dfsph";        ///< "dfsph" | "wcsph"
+  double support_radius = 0.21;        ///< h [m]; the spacing is h / 2
+  double density = 300;                ///< [kg m^-3]
+  double viscosity = 0;                ///< mu [Pa s]
+  std::string wall = "slip";           ///< "slip" | "no_slip": of the viscous stress at walls
+  double density_tolerance = 5e-4;     ///< mean compression allowed
+  double divergence_tolerance = 1e-1;  ///< mean rate of compression allowed, in percent of the volume a step
   int max_iterations = 100;
-  double cfl = 0.4;                   ///< of the spacing
-  double sound_speed = 0;             ///< [m s^-1] (wcsph); 0: ten times the largest speed expected
-  double friction_mu = 0.155;         ///< Coulomb coefficient
-  double friction_xi = 4000;          ///< Voellmy turbulent coefficient [m s^-2]; 0: no turbulent part
+  double cfl = 0.4;                         ///< of the spacing
+  double sound_speed = 0;                   ///< [m s^-1] (wcsph); 0: ten times the largest speed expected
+  double friction_mu = 0.155;               ///< Coulomb coefficient
+  double friction_xi = 4000;                ///< Voellmy turbulent coefficient [m s^-2]; 0: no turbulent part
   std::string friction_acts_on = "column";  ///< "column" | "base" | "none"
-  double compaction_time = 0.1;       ///< [s]; 0: off (R20)
+  double compaction_time = 0.1;             ///< [s]; 0: off (R20)
 };
 
 struct CoverSection {
-  double depth = 0.525;               ///< normal to the ground [m]
-  double density = 100;               ///< rho_a [kg m^-3]
-  double from = 0, to = -1;           ///< extent along the ground [m]; to < 0: its end
+  double depth = 0.525;      ///< normal to the ground [m]
+  double density = 100;      ///< rho_a [kg m^-3]
+  double from = 0, to = -1;  ///< extent along the ground [m]; to < 0: its end
   int relaxation_steps = 40;
 };
 
 struct ConfinementSection {
-  double strength = 0.15;             ///< epsilon of vorticity confinement
+  double strength = 0.15;  ///< epsilon of vorticity confinement
 };
 
 struct SuspensionSection {
@@ -89,27 +89,27 @@ struct SuspensionSection {
   double cfl = 1;                     ///< of the cell size
   double tolerance = 1e-4;            ///< relative residual of the pressure solve
   int max_iterations = 200;
-  bool moving_core = true;            ///< R10; false: the paper's rule
+  bool moving_core = true;  ///< R10; false: the paper's rule
   std::optional<ConfinementSection> confinement;
 };
 
 struct DragSection {
-  double constant = 0.81;             ///< k_drag
-  std::string law = "air";            ///< "air" | "paper" (R2)
+  double constant = 0.81;   ///< k_drag
+  std::string law = "air";  ///< "air" | "paper" (R2)
 };
 struct LiftSection {
-  double constant = 0.2;              ///< k_lift
+  double constant = 0.2;  ///< k_lift
   std::string law = "air";
 };
 struct GenerationSection {
-  double constant = 0.02;             ///< C_g [kg m^-2 s^-1 (m/s)^-1.7]
-  double threshold_speed = 5;         ///< [m s^-1]
+  double constant = 0.02;      ///< C_g [kg m^-2 s^-1 (m/s)^-1.7]
+  double threshold_speed = 5;  ///< [m s^-1]
 };
 struct AdhesionSection {
-  double constant = 0.2;              ///< C_a
+  double constant = 0.2;  ///< C_a
 };
 struct CouplingSection {
-  double overlap_fraction = 0.8;      ///< beta: n_0 = beta n_interior (R1)
+  double overlap_fraction = 0.8;         ///< beta: n_0 = beta n_interior (R1)
   double min_mass = 0.05, max_mass = 2;  ///< of a particle, in initial masses (R17)
   std::optional<DragSection> drag;
   std::optional<LiftSection> lift;
@@ -118,20 +118,20 @@ struct CouplingSection {
 };
 
 struct EntrainmentSection {
-  std::string rule = "clock";         ///< "clock" | "bernoulli"
-  double rate = 10;                   ///< Er [kg m^-2 s^-1]
-  double threshold_surface = 1e-6;    ///< gamma_0 at the cover's initial surface [s^-1]
-  double threshold_base = 1e-4;       ///< gamma_0 at its base [s^-1]
-  std::string column = "normal";      ///< "normal" | "vertical"
+  std::string rule = "clock";       ///< "clock" | "bernoulli"
+  double rate = 10;                 ///< Er [kg m^-2 s^-1]
+  double threshold_surface = 1e-6;  ///< gamma_0 at the cover's initial surface [s^-1]
+  double threshold_base = 1e-4;     ///< gamma_0 at its base [s^-1]
+  std::string column = "normal";    ///< "normal" | "vertical"
   bool spontaneous = false;
-  double friction_strain = 1;         ///< factor on gamma_f = tau_f / eta; 0: off (R14)
+  double friction_strain = 1;  ///< factor on gamma_f = tau_f / eta; 0: off (R14)
 };
 
 struct OutputSection {
   double frames_per_second = 10;
   bool particles = true, smoke = true;
   bool preview = true;
-  int preview_width = 1380;           ///< [px]
+  int preview_width = 1380;  ///< [px]
 };
 
 struct Scene {

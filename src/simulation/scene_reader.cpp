@@ -113,7 +113,8 @@ class Reader {
     report_.add(place, path, fmt::format("unknown {}{}", is_section ? "section" : "key", did_you_mean(meant)));
   }
 
-  template <class Chosen> void assign_if(Chosen chosen) {
+  template <class Chosen>
+  void assign_if(Chosen chosen) {
     for (const Entry& entry : entries_) {
       if (!chosen(*entry.key)) continue;
       const bool needs_dim = std::holds_alternative<std::vector<double>*>(entry.key->field(scene_));

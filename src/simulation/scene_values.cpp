@@ -75,7 +75,8 @@ class Converter {
   }
 
  private:
-  template <class T> static const T& as(const TomlValue& literal, std::string_view each = "") {
+  template <class T>
+  static const T& as(const TomlValue& literal, std::string_view each = "") {
     const T* value = std::get_if<T>(&literal.value);
     if (value == nullptr) throw Refusal{literal, {}, {}, std::string(each)};
     return *value;
@@ -133,7 +134,8 @@ struct Expectation {
       text += fmt::format("{}\"{}\"", i == 0 ? "" : i + 1 < key.words.size() ? ", " : " or ", key.words[i]);
     return text.empty() ? "a string" : text;
   }
-  template <class Numbers> std::string operator()(Numbers*) const {
+  template <class Numbers>
+  std::string operator()(Numbers*) const {
     const std::string what = key.unit.empty() ? "a number" : name_of(parse_unit(key.unit).dimension);
     return what + text_of(key.range, key.unit);
   }

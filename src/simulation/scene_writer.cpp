@@ -21,7 +21,8 @@ struct TomlText {
     for (const char c : *s) text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
     return text + "\"";
   }
-  template <class Items> std::string operator()(const Items* items) const {
+  template <class Items>
+  std::string operator()(const Items* items) const {
     std::string text = "[";
     for (const auto& item : *items) text += (text.size() > 1 ? ", " : "") + (*this)(&item);
     return text + "]";
@@ -47,7 +48,8 @@ bool is_empty_list(Slot field) {
 }
 
 /// Calls f(key, field) for the keys of `section` that this scene has.
-template <class F> void for_each_value(const Section& section, Scene& scene, F&& f) {
+template <class F>
+void for_each_value(const Section& section, Scene& scene, F&& f) {
   for (const Key& key : keys()) {
     if (key.section() != section.path) continue;
     const bool of_3d = key.path == "domain.front" || key.path == "domain.back";

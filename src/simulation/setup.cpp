@@ -47,7 +47,9 @@ std::vector<Vec<2>> ground_vertices(const TerrainSection& terrain, double domain
   return slope_profile(slope, domain_right + beyond_the_domain, ground_resolution);
 }
 
-Side side_of(const std::string& word) { return word == "open" ? Side::open : Side::closed; }
+Side side_of(const std::string& word) {
+  return word == "open" ? Side::open : Side::closed;
+}
 
 template <int Dim>
 Breadth breadth_of(const Box<Dim>& domain) {
@@ -84,7 +86,9 @@ double ground_at(const Walls<Dim>& walls, double x) {
   return walls.terrain->foot(surface).place[0];
 }
 
-ForceLaw law_of(const std::string& word) { return word == "paper" ? ForceLaw::paper : ForceLaw::air; }
+ForceLaw law_of(const std::string& word) {
+  return word == "paper" ? ForceLaw::paper : ForceLaw::air;
+}
 
 }  // namespace
 
@@ -152,8 +156,7 @@ std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<D
   SuspensionOptions<Dim> options;
   options.gravity = make_gravity<Dim>(scene);
   options.air_density = section.air_density;
-  options.scheme =
-      section.scheme == "semi_lagrangian" ? AdvectionScheme::semi_lagrangian : AdvectionScheme::maccormack;
+  options.scheme = section.scheme == "semi_lagrangian" ? AdvectionScheme::semi_lagrangian : AdvectionScheme::maccormack;
   options.viscosity = section.viscosity;
   options.diffusivity = section.diffusivity;
   options.settling_speed = section.settling_speed;
@@ -201,11 +204,11 @@ std::optional<EntrainmentOptions> make_entrainment(const Scene& scene) {
   return options;
 }
 
-#define INSTANTIATE(Dim)                                                                                        \
-  template Vec<Dim> make_gravity<Dim>(const Scene&);                                                            \
-  template Walls<Dim> make_walls<Dim>(const Scene&);                                                            \
-  template std::optional<Cover<Dim>> make_cover<Dim>(const Scene&, const Walls<Dim>&, std::uint64_t);           \
-  template std::optional<DenseFlow<Dim>> make_dense_flow<Dim>(const Scene&, const Walls<Dim>&);                 \
+#define INSTANTIATE(Dim)                                                                              \
+  template Vec<Dim> make_gravity<Dim>(const Scene&);                                                  \
+  template Walls<Dim> make_walls<Dim>(const Scene&);                                                  \
+  template std::optional<Cover<Dim>> make_cover<Dim>(const Scene&, const Walls<Dim>&, std::uint64_t); \
+  template std::optional<DenseFlow<Dim>> make_dense_flow<Dim>(const Scene&, const Walls<Dim>&);       \
   template std::optional<Suspension<Dim>> make_suspension<Dim>(const Scene&, const Walls<Dim>&);
 INSTANTIATE(2)
 INSTANTIATE(3)

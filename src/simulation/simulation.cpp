@@ -124,11 +124,9 @@ void Simulation<Dim>::exchange_layers() {
   find_region<Dim>(region_, p, overlap_, *suspension_);
   report_.n_overlap = region_.size();
   if (c.drag)
-    exchange_drag<Dim>(region_, exchange_, p, *c.drag, c.smoke.radius, c.air_density, dt_,
-                       gravity_.squaredNorm() > 0);
+    exchange_drag<Dim>(region_, exchange_, p, *c.drag, c.smoke.radius, c.air_density, dt_, gravity_.squaredNorm() > 0);
   if (c.lift) exchange_lift<Dim>(region_, exchange_, p, *suspension_, *c.lift, dt_);
-  if (c.smoke.generation || c.smoke.adhesion)
-    exchange_smoke<Dim>(region_, exchange_, p, *suspension_, c.smoke, dt_);
+  if (c.smoke.generation || c.smoke.adhesion) exchange_smoke<Dim>(region_, exchange_, p, *suspension_, c.smoke, dt_);
   book_faces<Dim>(region_, exchange_);
 
   report_.exchange_on_particles = momentum_on_particles(exchange_);
@@ -265,8 +263,8 @@ std::vector<std::pair<std::string, std::size_t>> Simulation<Dim>::memory() const
   if (suspension_) parts.emplace_back("suspension", suspension_->bytes() + (ground_ ? ground_->bytes() : 0));
   if (suspension_ && dense_) parts.emplace_back("core", core_.bytes() + bytes(overlap_));
   if (coupling_)
-    parts.emplace_back("coupling", region_.bytes() + bytes(exchange_.on_particles.momentum) +
-                                       bytes(exchange_.on_particles.mass));
+    parts.emplace_back("coupling",
+                       region_.bytes() + bytes(exchange_.on_particles.momentum) + bytes(exchange_.on_particles.mass));
   if (entrainment_) parts.emplace_back("entrainment", entrainment_->bytes());
   return parts;
 }

@@ -22,8 +22,8 @@ class Simulation {
   explicit Simulation(const Scene& scene);
 
   /// One step of the paper's flowchart.
-  /// Throws Error(unstable) naming field, id or cell, place, step and dt: a value that is not finite, a mass that is not
-  /// positive, a runaway speed. The state is then that of the failed step; what was written before stands.
+  /// Throws Error(unstable) naming field, id or cell, place, step and dt: a value that is not finite, a mass that is
+  /// not positive, a runaway speed. The state is then that of the failed step; what was written before stands.
   void step();
 
   double time() const { return time_; }

@@ -36,7 +36,9 @@ std::string fault(const Particles<Dim>& p, std::size_t i, double fastest) {
 
 }  // namespace
 
-double runaway_speed(double length, double gravity) { return std::max(300.0, 10 * std::sqrt(2 * gravity * length)); }
+double runaway_speed(double length, double gravity) {
+  return std::max(300.0, 10 * std::sqrt(2 * gravity * length));
+}
 
 template <int Dim>
 void check_particles(const Particles<Dim>& p, double fastest, const StepStamp& stamp) {
@@ -71,8 +73,8 @@ void check_suspension(const Suspension<Dim>& suspension, double fastest, const S
            stamp);
 }
 
-#define INSTANTIATE(Dim)                                                                      \
-  template void check_particles<Dim>(const Particles<Dim>&, double, const StepStamp&);        \
+#define INSTANTIATE(Dim)                                                               \
+  template void check_particles<Dim>(const Particles<Dim>&, double, const StepStamp&); \
   template void check_suspension<Dim>(const Suspension<Dim>&, double, const StepStamp&);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -16,8 +16,8 @@ struct StepStamp {
 /// Faster than anything gravity can drive over `length` [m]: ten times the speed of a free fall, at least 300 m/s.
 double runaway_speed(double length, double gravity);
 
-/// Throws Error(unstable) naming field, particle, place, step, time and dt: a position or velocity that is not finite, a
-/// mass or volume that is not positive, a speed above `fastest` [m s^-1]. One pass over the particles.
+/// Throws Error(unstable) naming field, particle, place, step, time and dt: a position or velocity that is not finite,
+/// a mass or volume that is not positive, a speed above `fastest` [m s^-1]. One pass over the particles.
 template <int Dim>
 void check_particles(const Particles<Dim>& particles, double fastest, const StepStamp& stamp);
 

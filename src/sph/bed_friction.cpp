@@ -29,7 +29,8 @@ double turbulent_rate(const BedFriction& friction, double g, double thickness, d
 }
 
 /// The sum of slow_column(column) over all columns, in a fixed order.
-template <int Dim, class F> Vec<Dim> sum_over_columns(const Columns<Dim>& columns, F&& slow_column) {
+template <int Dim, class F>
+Vec<Dim> sum_over_columns(const Columns<Dim>& columns, F&& slow_column) {
   return parallel_reduce(
       columns.columns.size(), Vec<Dim>(Vec<Dim>::Zero()),
       [&](std::size_t begin, std::size_t end) {

@@ -9,27 +9,31 @@
 namespace spindrift {
 namespace {
 
-template <int Dim> std::size_t hash(const GroundBin<Dim>& bin) {
+template <int Dim>
+std::size_t hash(const GroundBin<Dim>& bin) {
   std::uint64_t h = 0;
   for (const int b : bin) h = (h ^ static_cast<std::uint32_t>(b)) * 0x9e3779b97f4a7c15u;
   return static_cast<std::size_t>(h >> 20);
 }
 
 /// The place in the table of `bin`, or the free one where it would go.
-template <int Dim> std::size_t probe(const Columns<Dim>& columns, const GroundBin<Dim>& bin) {
+template <int Dim>
+std::size_t probe(const Columns<Dim>& columns, const GroundBin<Dim>& bin) {
   const std::size_t mask = columns.table.size() - 1;
   std::size_t place = hash<Dim>(bin) & mask;
   while (columns.table[place] != 0 && columns.columns[columns.table[place] - 1].bin != bin) place = (place + 1) & mask;
   return place;
 }
 
-template <int Dim> void grow_table(Columns<Dim>& columns) {
+template <int Dim>
+void grow_table(Columns<Dim>& columns) {
   columns.table.assign(std::max<std::size_t>(64, 4 * columns.table.size()), 0);
   for (std::uint32_t c = 0; c < columns.columns.size(); ++c)
     columns.table[probe(columns, columns.columns[c].bin)] = c + 1;
 }
 
-template <int Dim> std::uint32_t column_at(Columns<Dim>& columns, const GroundBin<Dim>& bin) {
+template <int Dim>
+std::uint32_t column_at(Columns<Dim>& columns, const GroundBin<Dim>& bin) {
   if (2 * columns.columns.size() >= columns.table.size()) grow_table(columns);
   std::uint32_t& entry = columns.table[probe(columns, bin)];
   if (entry == 0) {
@@ -40,7 +44,8 @@ template <int Dim> std::uint32_t column_at(Columns<Dim>& columns, const GroundBi
 }
 
 /// Counting sort of the particles by column, without order within a column.
-template <int Dim> void sort_by_column(Columns<Dim>& columns) {
+template <int Dim>
+void sort_by_column(Columns<Dim>& columns) {
   for (const std::uint32_t c : columns.column) ++columns.columns[c].end;
   std::uint32_t n = 0;
   for (Column<Dim>& c : columns.columns) {
@@ -54,7 +59,8 @@ template <int Dim> void sort_by_column(Columns<Dim>& columns) {
     columns.heights[columns.columns[columns.column[i]].end++] = {columns.foot[i].distance, i};
 }
 
-template <int Dim> void sort_by_height(const Column<Dim>& c, Columns<Dim>& columns, const Particles<Dim>& dense) {
+template <int Dim>
+void sort_by_height(const Column<Dim>& c, Columns<Dim>& columns, const Particles<Dim>& dense) {
   using Height = typename Columns<Dim>::Height;
   Height* const sorted = columns.heights.data();
   std::sort(sorted + c.first, sorted + c.end, [&dense](const Height& a, const Height& b) {
@@ -86,7 +92,8 @@ void measure(Column<Dim>& c, const Columns<Dim>& columns, const Particles<Dim>& 
 
 }  // namespace
 
-template <int Dim> const Column<Dim>* Columns<Dim>::find(const GroundBin<Dim>& bin) const {
+template <int Dim>
+const Column<Dim>* Columns<Dim>::find(const GroundBin<Dim>& bin) const {
   if (table.empty()) return nullptr;
   const std::uint32_t entry = table[probe(*this, bin)];
   return entry == 0 ? nullptr : &columns[entry - 1];

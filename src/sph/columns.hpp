@@ -15,7 +15,8 @@ namespace spindrift {
 
 /// Snow that stands on one bin of ground. A particle belongs to the column if no air gap wider than the support radius
 /// lies between the bed and it (R18); what flies above such a gap is over the bin but not in the column.
-template <int Dim> struct Column {
+template <int Dim>
+struct Column {
   GroundBin<Dim> bin{};
   double bed = 0;                        ///< normal distance of the bed from the ground [m]: the cover's surface, or 0
   double thickness = 0;                  ///< h_flow = sum V / A, at least d [m]; 0: nothing stands on the bed
@@ -25,7 +26,8 @@ template <int Dim> struct Column {
   std::uint32_t end_standing = 0;        ///< [first, end_standing): those of the column
 };
 
-template <int Dim> struct Columns {
+template <int Dim>
+struct Columns {
   double bin_size = 0;                 ///< 2 d [m]
   std::vector<Foot<Dim>> foot;         ///< of every dense particle
   std::vector<std::uint32_t> column;   ///< of every dense particle: its number in `columns`

@@ -5,7 +5,8 @@
 namespace spindrift {
 namespace {
 
-template <int Dim> void sort_by_cell(Cover<Dim>& cover) {
+template <int Dim>
+void sort_by_cell(Cover<Dim>& cover) {
   cover.cells = CellList<Dim>(cover.bin_size);
   cover.cells.build(cover.particles);
   cover.cells.release_scratch();
@@ -20,20 +21,23 @@ template <int Dim> void sort_by_cell(Cover<Dim>& cover) {
 
 }  // namespace
 
-template <int Dim> std::span<const std::uint32_t> Cover<Dim>::slots_in(GroundBin<Dim> bin) const {
+template <int Dim>
+std::span<const std::uint32_t> Cover<Dim>::slots_in(GroundBin<Dim> bin) const {
   for (int k = 0; k < Dim - 1; ++k) bin[k] -= lower[k];
   if (!inside<Dim - 1>(bin, shape)) return {};
   const std::size_t b = flat<Dim - 1>(bin, shape);
   return {members.data() + first[b], first[b + 1] - first[b]};
 }
 
-template <int Dim> double Cover<Dim>::surface(const GroundBin<Dim>& bin) const {
+template <int Dim>
+double Cover<Dim>::surface(const GroundBin<Dim>& bin) const {
   for (const std::uint32_t slot : slots_in(bin))
     if (alive(slot)) return foot[slot].distance + spacing / 2;
   return 0;
 }
 
-template <int Dim> void index_cover(Cover<Dim>& cover) {
+template <int Dim>
+void index_cover(Cover<Dim>& cover) {
   const std::size_t n = cover.particles.size();
   cover.bin_size = 2 * cover.spacing;
   sort_by_cell(cover);
@@ -74,7 +78,8 @@ template <int Dim> void index_cover(Cover<Dim>& cover) {
               });
 }
 
-template <int Dim> void remove_from_cover(Cover<Dim>& cover, std::size_t slot) {
+template <int Dim>
+void remove_from_cover(Cover<Dim>& cover, std::size_t slot) {
   if (!cover.alive(slot)) return;
   cover.particles.mass[slot] = 0;
   cover.particles.volume[slot] = 0;
@@ -82,7 +87,8 @@ template <int Dim> void remove_from_cover(Cover<Dim>& cover, std::size_t slot) {
   ++cover.n_dead;
 }
 
-template <int Dim> bool compact_cover(Cover<Dim>& cover) {
+template <int Dim>
+bool compact_cover(Cover<Dim>& cover) {
   if (8 * cover.n_dead <= cover.particles.size()) return false;
   const std::vector<double> volume = cover.particles.volume;
   const auto drop_dead = [&volume](auto& array) {

@@ -14,7 +14,8 @@ namespace spindrift {
 
 /// Slots of resting particles. An entrained particle leaves a dead slot behind, of mass and volume 0.
 /// State are particles, foot and hazard; the rest is derived by index_cover.
-template <int Dim> struct Cover {
+template <int Dim>
+struct Cover {
   double spacing = 0;    ///< d [m]
   double density = 0;    ///< rho_a [kg m^-3]
   double thickness = 0;  ///< initial depth, normal to the ground [m]
@@ -48,13 +49,16 @@ template <int Dim> struct Cover {
 
 /// Sorts the slots by cell and builds the bins from the live ones.
 /// Throws Error(unstable): a position that is not finite or over 10^6 cells away.
-template <int Dim> void index_cover(Cover<Dim>& cover);
+template <int Dim>
+void index_cover(Cover<Dim>& cover);
 
 /// Makes the slot dead: mass and volume 0.
-template <int Dim> void remove_from_cover(Cover<Dim>& cover, std::size_t slot);
+template <int Dim>
+void remove_from_cover(Cover<Dim>& cover, std::size_t slot);
 
 /// Once more than 1/8 of the slots are dead, drops them, keeps the order of the others, and indexes them anew.
 /// Returns whether slots have new numbers.
-template <int Dim> bool compact_cover(Cover<Dim>& cover);
+template <int Dim>
+bool compact_cover(Cover<Dim>& cover);
 
 }  // namespace spindrift

@@ -7,10 +7,12 @@
 
 namespace spindrift {
 
-template <int Dim> using GroundBin = Index<Dim - 1>;
+template <int Dim>
+using GroundBin = Index<Dim - 1>;
 
 /// The bin of edge `size` [m] that holds `place` [m]. Places beyond 1e9 bins, and NaN, fall into the outermost.
-template <int Dim> GroundBin<Dim> ground_bin(const Vec<Dim - 1>& place, double size) {
+template <int Dim>
+GroundBin<Dim> ground_bin(const Vec<Dim - 1>& place, double size) {
   GroundBin<Dim> bin;
   for (int k = 0; k < Dim - 1; ++k) {
     const double b = std::floor(place[k] / size);
@@ -20,12 +22,14 @@ template <int Dim> GroundBin<Dim> ground_bin(const Vec<Dim - 1>& place, double s
 }
 
 /// Area of a bin [m^(Dim-1)].
-template <int Dim> double ground_bin_area(double size) {
+template <int Dim>
+double ground_bin_area(double size) {
   return Dim == 2 ? size : size * size;
 }
 
 /// Calls f(bin) for `bin` and the bins that touch it.
-template <int Dim, class F> void for_each_bin_around(const GroundBin<Dim>& bin, F&& f) {
+template <int Dim, class F>
+void for_each_bin_around(const GroundBin<Dim>& bin, F&& f) {
   GroundBin<Dim> block;
   block.fill(3);
   for_each_index<Dim - 1>(block, [&](const GroundBin<Dim>& step) {

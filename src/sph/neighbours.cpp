@@ -168,8 +168,8 @@ std::size_t Neighbours<Dim>::Block::bytes() const {
 
 template <int Dim>
 std::size_t Neighbours<Dim>::bytes() const {
-  std::size_t n = spindrift::bytes(blocks_) + spindrift::bytes(row_end_) + spindrift::bytes(volume_sum_, full_, no_slip_) +
-                  spindrift::bytes(boundary_, gradient_sum_);
+  std::size_t n = spindrift::bytes(blocks_) + spindrift::bytes(row_end_) +
+                  spindrift::bytes(volume_sum_, full_, no_slip_) + spindrift::bytes(boundary_, gradient_sum_);
   for (const Block& block : blocks_) n += block.bytes();
   return n;
 }

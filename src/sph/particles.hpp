@@ -10,7 +10,8 @@
 namespace spindrift {
 
 /// State of a set of particles; every array has one entry a particle. Everything that steers the next step is here.
-template <int Dim> struct Particles {
+template <int Dim>
+struct Particles {
   std::vector<Vec<Dim>> position;  ///< x [m]
   std::vector<Vec<Dim>> velocity;  ///< v [m s^-1]
   std::vector<double> mass;        ///< m [kg], in 2D per metre of width
@@ -42,10 +43,12 @@ template <int Dim> struct Particles {
   }
 
   /// Calls f(array) for every array, always in the same order.
-  template <class F> void for_each_array(F&& f) {
+  template <class F>
+  void for_each_array(F&& f) {
     f(position), f(velocity), f(mass), f(volume), f(pressure), f(divergence_pressure), f(entrained_at), f(id);
   }
-  template <class F> void for_each_array(F&& f) const {
+  template <class F>
+  void for_each_array(F&& f) const {
     f(position), f(velocity), f(mass), f(volume), f(pressure), f(divergence_pressure), f(entrained_at), f(id);
   }
 
@@ -56,7 +59,8 @@ template <int Dim> struct Particles {
 };
 
 /// What other layers did to the particles in this step. Equal and opposite to GridSources, see coupling.
-template <int Dim> struct ParticleSources {
+template <int Dim>
+struct ParticleSources {
   std::vector<Vec<Dim>> momentum;  ///< [kg m s^-1]
   std::vector<double> mass;        ///< [kg]
 };

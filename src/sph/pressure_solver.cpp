@@ -81,10 +81,12 @@ void PressureSolver<Dim>::prepare(const Particles<Dim>& particles, const Neighbo
         }
         const double volume = particles.volume[i], mobility = volume / particles.mass[i];
         rate += 2 * v.dot(neighbours.boundary_gradient()[i]);
-        const double diagonal =
-            std::max(mobility * g_sum.squaredNorm() + volume * squares, mobility * least_diagonal / (h_ * h_));
-        excess_[i] = static_cast<float>(dt * rate - allowed_compression(neighbours.full()[i] - neighbours.volume_sum()[i], dt));
-        pressure_[i] = previous_[i] = static_cast<float>(particles.pressure[i]);
+        const double own = mobility * g_sum.squaredNorm() + volume * squares;
+        const double diagonal = std::max(own, mobility * least_diagonal / (h_ * h_));
+        excess_[i] =
+            static_cast<float>(dt * rate - allowed_compression(neighbours.full()[i] - neighbours.volume_sum()[i], dt));
+        // Where pressure hardly moves the particle, each step would add to the last one's and none would help.
+        pressure_[i] = previous_[i] = static_cast<float>(particles.pressure[i] * (own / diagonal));
         step_[i] = relaxation / static_cast<float>(dt * dt * diagonal);
         mobility_[i] = static_cast<float>(dt * dt * mobility);
         volume_[i] = static_cast<float>(volume);
@@ -143,8 +145,9 @@ void PressureSolver<Dim>::find_displacements(const Neighbours<Dim>& neighbours) 
       Neighbours<Dim>::block_size);
 }
 
-/// Returns sum and largest of the errors: the compression left over the target, and the expansion that pressure still causes,
-/// as far as lowering the pressure to zero could undo it. Without the second a stale first guess would push unseen.
+/// Returns sum and largest of the errors: the compression left over the target, and the expansion that pressure still
+/// causes, as far as lowering the pressure to zero could undo it. Without the second a stale first guess would push
+/// unseen.
 template <int Dim>
 typename PressureSolver<Dim>::Residuals PressureSolver<Dim>::find_residuals(const Neighbours<Dim>& neighbours) {
   const std::size_t n = pressure_.size();
@@ -177,7 +180,9 @@ typename PressureSolver<Dim>::Residuals PressureSolver<Dim>::find_residuals(cons
         }
         return all;
       },
-      [](const Residuals& a, const Residuals& b) { return Residuals{a.sum + b.sum, std::max(a.largest, b.largest)}; });
+      [](const Residuals& a, const Residuals& b) {
+        return Residuals{a.sum + b.sum, std::max(a.largest, b.largest)};
+      });
 }
 
 template <int Dim>

@@ -20,11 +20,15 @@ constexpr double least_cos_slope = 0.1;              // steeper ground carries n
 constexpr double repulsion_radius = 1.1;             // of d: just above the spacing wanted, else the places clump
 constexpr double first_step = 1.2, last_step = 0.2;  // of d: the push of a neighbour at no distance
 
-template <int Dim> struct Points {
+template <int Dim>
+struct Points {
   std::span<const Vec<Dim>> positions;
   std::size_t kdtree_get_point_count() const { return positions.size(); }
   double kdtree_get_pt(std::size_t i, std::size_t axis) const { return positions[i][static_cast<Eigen::Index>(axis)]; }
-  template <class Bounds> bool kdtree_get_bbox(Bounds&) const { return false; }
+  template <class Bounds>
+  bool kdtree_get_bbox(Bounds&) const {
+    return false;
+  }
 };
 
 template <int Dim>
@@ -59,14 +63,16 @@ double nearest(const Found& found) {
 }
 
 /// A periodic block of places (arc length[, y], normal distance) [m].
-template <int Dim> struct Tile {
+template <int Dim>
+struct Tile {
   Vec<Dim> size;
   std::vector<Vec<Dim>> places;
 };
 
 /// Appends the periodic images of the first n places that lie within `reach` of the tile, then, as walls that repel,
 /// the mirror images of all in ground and surface. Returns the number of places without mirror images.
-template <int Dim> std::size_t add_images(std::vector<Vec<Dim>>& places, const Vec<Dim>& size, double reach) {
+template <int Dim>
+std::size_t add_images(std::vector<Vec<Dim>>& places, const Vec<Dim>& size, double reach) {
   for (int axis = 0; axis < Dim - 1; ++axis) {
     const std::size_t n = places.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -94,7 +100,8 @@ std::vector<std::uint8_t> thinned(const std::vector<std::vector<std::uint32_t>>&
   return kept;
 }
 
-template <int Dim> Tile<Dim> relaxed_tile(const Vec<Dim>& size, double d, std::uint64_t seed, int steps) {
+template <int Dim>
+Tile<Dim> relaxed_tile(const Vec<Dim>& size, double d, std::uint64_t seed, int steps) {
   constexpr int normal = Dim - 1;
   Tile<Dim> tile{size, {}};
   const auto n = static_cast<std::size_t>(std::llround(size.prod() / std::pow(d, Dim)));
@@ -138,7 +145,8 @@ template <int Dim> Tile<Dim> relaxed_tile(const Vec<Dim>& size, double d, std::u
 }
 
 /// Whether cover may rest at `place`: on ground that is not too steep, and there nearer than to any other ground.
-template <int Dim> bool may_rest(const Terrain<Dim>& terrain, const Vec<Dim>& place, double d) {
+template <int Dim>
+bool may_rest(const Terrain<Dim>& terrain, const Vec<Dim>& place, double d) {
   if (terrain.tangent(place[0])[0] < least_cos_slope) return false;
   const double distance = place[Dim - 1];
   const Foot<Dim> foot = terrain.foot(terrain.position(place.template head<Dim - 1>(), distance));
@@ -146,7 +154,8 @@ template <int Dim> bool may_rest(const Terrain<Dim>& terrain, const Vec<Dim>& pl
   return std::abs(cos_slope<Dim>(foot.normal)) < least_cos_slope && foot.distance >= d / 2;
 }
 
-template <int Dim> void append(Particles<Dim>& particles, const Vec<Dim>& x, const SnowKind<Dim>& kind) {
+template <int Dim>
+void append(Particles<Dim>& particles, const Vec<Dim>& x, const SnowKind<Dim>& kind) {
   const double volume = std::pow(kind.spacing, Dim);
   particles.id.push_back(kind.first_id + particles.size());
   particles.position.push_back(x);
@@ -162,7 +171,8 @@ void check(bool good, const char* what) {
   if (!good) throw Error(ExitCode::bad_input, std::string("sampling: ") + what);
 }
 
-template <int Dim> void check_kind(const SnowKind<Dim>& kind) {
+template <int Dim>
+void check_kind(const SnowKind<Dim>& kind) {
   check(std::isfinite(kind.spacing) && kind.spacing > 0, "the particle spacing must be positive");
   check(std::isfinite(kind.density) && kind.density > 0, "the density must be positive");
 }
@@ -248,7 +258,8 @@ Particles<Dim> sample_slab(const Terrain<Dim>& terrain, const Slab& slab, const 
   return lattice;
 }
 
-template <int Dim> Particles<Dim> sample_box(const Box<Dim>& box, const SnowKind<Dim>& kind) {
+template <int Dim>
+Particles<Dim> sample_box(const Box<Dim>& box, const SnowKind<Dim>& kind) {
   check_kind(kind);
   check(box.lower.allFinite() && box.upper.allFinite(), "the corners of the release must be finite");
   Index<Dim> shape;
@@ -266,7 +277,8 @@ template <int Dim> Particles<Dim> sample_box(const Box<Dim>& box, const SnowKind
   return particles;
 }
 
-template <int Dim> NearestNeighbours nearest_neighbours(std::span<const Vec<Dim>> positions) {
+template <int Dim>
+NearestNeighbours nearest_neighbours(std::span<const Vec<Dim>> positions) {
   NearestNeighbours result;
   if (positions.size() < 2) return result;
   const Points<Dim> points{positions};

@@ -18,7 +18,8 @@ struct Breadth {
 };
 
 /// What all particles of one origin have in common.
-template <int Dim> struct SnowKind {
+template <int Dim>
+struct SnowKind {
   double spacing = 0.105;                ///< d [m]
   double density = 300;                  ///< [kg m^-3]; each particle has volume d^Dim and mass density d^Dim
   Vec<Dim> velocity = Vec<Dim>::Zero();  ///< [m s^-1]
@@ -55,10 +56,12 @@ struct Slab {
 };
 
 /// A slab as a lattice in (arc length, y, normal distance): round(length/d) x round(breadth/d) x round(thickness/d).
-template <int Dim> Particles<Dim> sample_slab(const Terrain<Dim>& terrain, const Slab& slab, const SnowKind<Dim>& kind);
+template <int Dim>
+Particles<Dim> sample_slab(const Terrain<Dim>& terrain, const Slab& slab, const SnowKind<Dim>& kind);
 
 /// An axis-aligned box as a lattice of round(size/d) particles an axis.
-template <int Dim> Particles<Dim> sample_box(const Box<Dim>& box, const SnowKind<Dim>& kind);
+template <int Dim>
+Particles<Dim> sample_box(const Box<Dim>& box, const SnowKind<Dim>& kind);
 
 /// Distances of the particles' nearest neighbours [m]. For fewer than two particles: infinite.
 struct NearestNeighbours {
@@ -66,6 +69,7 @@ struct NearestNeighbours {
   double least = std::numeric_limits<double>::infinity();
 };
 
-template <int Dim> NearestNeighbours nearest_neighbours(std::span<const Vec<Dim>> positions);
+template <int Dim>
+NearestNeighbours nearest_neighbours(std::span<const Vec<Dim>> positions);
 
 }  // namespace spindrift

@@ -18,7 +18,8 @@ Vec<2> in_profile(const Vec<3>& x) {
   return {x[0], x[2]};
 }
 
-template <int Dim> Vec<Dim> lifted(const Vec<2>& v, double y) {
+template <int Dim>
+Vec<Dim> lifted(const Vec<2>& v, double y) {
   if constexpr (Dim == 2) {
     return v;
   } else {
@@ -41,7 +42,8 @@ void check_vertices(const std::vector<Vec<2>>& v) {
 
 }  // namespace
 
-template <int Dim> Terrain<Dim>::Terrain(std::vector<Vec<2>> vertices) : vertices_(std::move(vertices)) {
+template <int Dim>
+Terrain<Dim>::Terrain(std::vector<Vec<2>> vertices) : vertices_(std::move(vertices)) {
   check_vertices(vertices_);
   arc_.resize(vertices_.size());
   for (std::size_t i = 1; i < vertices_.size(); ++i) arc_[i] = arc_[i - 1] + (vertices_[i] - vertices_[i - 1]).norm();
@@ -58,23 +60,27 @@ template <int Dim> Terrain<Dim>::Terrain(std::vector<Vec<2>> vertices) : vertice
   }
 }
 
-template <int Dim> Vec<2> Terrain<Dim>::piece_tangent(std::size_t piece) const {
+template <int Dim>
+Vec<2> Terrain<Dim>::piece_tangent(std::size_t piece) const {
   return (vertices_[piece + 1] - vertices_[piece]).normalized();
 }
 
-template <int Dim> Vec<2> Terrain<Dim>::piece_normal(std::size_t piece) const {
+template <int Dim>
+Vec<2> Terrain<Dim>::piece_normal(std::size_t piece) const {
   const Vec<2> t = piece_tangent(piece);
   return {-t[1], t[0]};
 }
 
-template <int Dim> std::size_t Terrain<Dim>::first_piece_reaching(double x) const {
+template <int Dim>
+std::size_t Terrain<Dim>::first_piece_reaching(double x) const {
   const double bin = std::clamp((x - table_x0_) / table_step_, 0.0, static_cast<double>(table_.size() - 1));
   std::size_t piece = table_[static_cast<std::size_t>(bin)];
   while (piece + 2 < vertices_.size() && vertices_[piece + 1][0] < x) ++piece;
   return piece;
 }
 
-template <int Dim> double Terrain<Dim>::height(double x) const {
+template <int Dim>
+double Terrain<Dim>::height(double x) const {
   std::size_t piece = first_piece_reaching(x);
   double z = -std::numeric_limits<double>::infinity();
   for (; piece + 1 < vertices_.size() && (vertices_[piece][0] <= x || piece == 0); ++piece) {
@@ -85,7 +91,8 @@ template <int Dim> double Terrain<Dim>::height(double x) const {
   return z;
 }
 
-template <int Dim> Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& position, double reach) const {
+template <int Dim>
+Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& position, double reach) const {
   const Vec<2> x = in_profile(position);
   const std::size_t last = vertices_.size() - 2;
 
@@ -132,22 +139,26 @@ template <int Dim> Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& position, double
   return foot;
 }
 
-template <int Dim> std::size_t Terrain<Dim>::piece_at(double arc_length) const {
+template <int Dim>
+std::size_t Terrain<Dim>::piece_at(double arc_length) const {
   const auto above = std::upper_bound(arc_.begin() + 1, arc_.end() - 1, arc_length);
   return static_cast<std::size_t>(above - arc_.begin()) - 1;
 }
 
-template <int Dim> Vec<2> Terrain<Dim>::tangent(double arc_length) const {
+template <int Dim>
+Vec<2> Terrain<Dim>::tangent(double arc_length) const {
   return piece_tangent(piece_at(arc_length));
 }
 
-template <int Dim> Vec<Dim> Terrain<Dim>::position(const Vec<Dim - 1>& place, double distance) const {
+template <int Dim>
+Vec<Dim> Terrain<Dim>::position(const Vec<Dim - 1>& place, double distance) const {
   const std::size_t piece = piece_at(place[0]);
   const Vec<2> x = vertices_[piece] + (place[0] - arc_[piece]) * piece_tangent(piece) + distance * piece_normal(piece);
   return lifted<Dim>(x, place[Dim - 2]);
 }
 
-template <int Dim> std::size_t Terrain<Dim>::bytes() const {
+template <int Dim>
+std::size_t Terrain<Dim>::bytes() const {
   return spindrift::bytes(vertices_) + spindrift::bytes(arc_) + spindrift::bytes(table_);
 }
 

@@ -10,7 +10,8 @@
 namespace spindrift {
 
 /// The nearest point of the ground's surface, as seen from a position.
-template <int Dim> struct Foot {
+template <int Dim>
+struct Foot {
   double distance = 0;                        ///< signed distance [m], positive in the air
   Vec<Dim> normal = up<Dim>();                ///< unit normal out of the ground
   Vec<Dim - 1> place = Vec<Dim - 1>::Zero();  ///< arc length along the profile [m], in 3D also y [m]
@@ -18,14 +19,15 @@ template <int Dim> struct Foot {
 
 /// A polyline from left to right, ground below it. x never decreases; a vertical piece is a cliff's face. The first and
 /// the last piece go on to infinity.
-template <int Dim> class Terrain {
+template <int Dim>
+class Terrain {
  public:
   /// vertices: at least two, (x, z) [m].  Throws Error(bad_input): fewer than two, x decreasing, coincident neighbours,
   /// a value that is not finite, a vertical end piece.
   explicit Terrain(std::vector<Vec<2>> vertices);
 
-  /// The nearest point of the surface; where it is farther than `reach` [m] only the distance's sign is right, and it is
-  /// `reach` or more. Cost: the pieces within min(reach, height over the surface) aside of x.
+  /// The nearest point of the surface; where it is farther than `reach` [m] only the distance's sign is right, and it
+  /// is `reach` or more. Cost: the pieces within min(reach, height over the surface) aside of x.
   Foot<Dim> foot(const Vec<Dim>& x, double reach = std::numeric_limits<double>::infinity()) const;
 
   /// The position at arc length (and y) `place` and normal distance `distance` from the surface: the inverse of foot()
@@ -55,7 +57,8 @@ template <int Dim> class Terrain {
 };
 
 /// cos of the angle between a normal and the vertical.
-template <int Dim> double cos_slope(const Vec<Dim>& normal) {
+template <int Dim>
+double cos_slope(const Vec<Dim>& normal) {
   return normal[up_axis<Dim>];
 }
 

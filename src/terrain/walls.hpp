@@ -10,13 +10,15 @@ namespace spindrift {
 
 enum class Side : std::uint8_t { open, closed };
 
-template <int Dim> struct Walls {
+template <int Dim>
+struct Walls {
   std::optional<Terrain<Dim>> terrain;
   Box<Dim> domain;
   std::array<std::array<Side, 2>, Dim> sides{};  ///< [axis][0 lower, 1 upper]
 
   /// Calls f(distance, normal) for the terrain and for every closed side nearer than `reach` [m].
-  template <class F> void for_each_near(const Vec<Dim>& x, double reach, F&& f) const {
+  template <class F>
+  void for_each_near(const Vec<Dim>& x, double reach, F&& f) const {
     if (terrain) {
       const Foot<Dim> foot = terrain->foot(x);
       if (foot.distance < reach) f(foot.distance, foot.normal);
@@ -25,7 +27,8 @@ template <int Dim> struct Walls {
   }
 
   /// The same for the closed sides of the domain alone.
-  template <class F> void for_each_side_near(const Vec<Dim>& x, double reach, F&& f) const {
+  template <class F>
+  void for_each_side_near(const Vec<Dim>& x, double reach, F&& f) const {
     for (int axis = 0; axis < Dim; ++axis) {
       const double below = x[axis] - domain.lower[axis], above = domain.upper[axis] - x[axis];
       if (sides[axis][0] == Side::closed && below < reach) f(below, Vec<Dim>(Vec<Dim>::Unit(axis)));

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "core/random.hpp"
 #include "coupling/drag_lift.hpp"
 #include "coupling/smoke_exchange.hpp"
-#include "core/random.hpp"
 
 namespace spindrift::testing {
 
@@ -34,7 +34,9 @@ void add_particle(Particles<Dim>& particles, const Vec<Dim>& x, const Vec<Dim>& 
 }
 
 /// A number in (-1, 1), a function of its arguments.
-inline double noise(std::uint64_t i, std::uint32_t k) { return 2 * uniform(11, RandomStream::bernoulli, i, k) - 1; }
+inline double noise(std::uint64_t i, std::uint32_t k) {
+  return 2 * uniform(11, RandomStream::bernoulli, i, k) - 1;
+}
 
 template <int Dim>
 Vec<Dim> noise_vector(std::uint64_t i, std::uint32_t first) {

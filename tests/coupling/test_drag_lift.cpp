@@ -78,7 +78,8 @@ TEMPLATE_TEST_CASE_SIG("C4: lift turns the slip by the damped rotation", "[coupl
   CHECK(angle == Approx(std::atan(theta)).margin(1e-7));  // the phase is second order
 }
 
-TEMPLATE_TEST_CASE_SIG("C4: a particle in heavy rotating air circles by Eq. (11)", "[coupling]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("C4: a particle in heavy rotating air circles by Eq. (11)", "[coupling]", ((int Dim), Dim), 2,
+                       3) {
   const double omega = 0.3, dt = 0.1, k_lift = 0.2;
   Suspension<Dim> air = air_box<Dim>(8, 1, 1e9, Side::open);
   FaceField<Dim> u = air.velocity();

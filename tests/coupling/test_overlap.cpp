@@ -24,7 +24,8 @@ DenseFlow<Dim> block(const Vec<Dim>& shift, int rows) {
   for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
     Vec<Dim> x;
     for (int k = 0; k < Dim; ++k) x[k] = d * (i[k] + 0.5);
-    add_particle<Dim>(dense.particles, Vec<Dim>(x + shift), Vec<Dim>::Unit(0), 300 * std::pow(d, Dim), std::pow(d, Dim));
+    add_particle<Dim>(dense.particles, Vec<Dim>(x + shift), Vec<Dim>::Unit(0), 300 * std::pow(d, Dim),
+                      std::pow(d, Dim));
   });
   return dense;
 }
@@ -61,8 +62,8 @@ std::vector<int> overlap_rows(const Vec<Dim>& shift, int rows, bool with_floor) 
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("C10: the overlap region is the surface row, not the underside", "[coupling]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("C10: the overlap region is the surface row, not the underside", "[coupling]", ((int Dim), Dim),
+                       2, 3) {
   CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 8, true) == std::vector<int>{7});
   CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 8, false) == std::vector<int>{0, 7});  // without ground: both faces
 }
@@ -72,7 +73,8 @@ TEMPLATE_TEST_CASE_SIG("C10: the class does not depend on where the snow lies", 
   CHECK(overlap_rows<Dim>(Vec<Dim>(Vec<Dim>::Constant(fraction * d)), 8, true) == std::vector<int>{7});
 }
 
-TEMPLATE_TEST_CASE_SIG("C10: snow that flies alone is overlap, no snow has none", "[coupling]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("C10: snow that flies alone is overlap, no snow has none", "[coupling]", ((int Dim), Dim), 2,
+                       3) {
   DenseFlowOptions options;
   options.support_radius = 2 * d;
   DenseFlow<Dim> dense(options);
@@ -109,7 +111,8 @@ TEMPLATE_TEST_CASE_SIG("C10, control: grid points coarser than the support radiu
   CHECK(seen < nodes / 2);
 }
 
-TEMPLATE_TEST_CASE_SIG("A core cell is at least half full of snow outside overlap", "[coupling]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("A core cell is at least half full of snow outside overlap", "[coupling]", ((int Dim), Dim), 2,
+                       3) {
   Suspension<Dim> air = air_box<Dim>(4, 1, 1.2);
   Particles<Dim> particles;
   const auto fill = [&](double x0, double share, const Vec<Dim>& v) {

@@ -73,7 +73,8 @@ TEMPLATE_TEST_CASE_SIG("C8: generation and adhesion find their equilibrium at an
   if constexpr (Dim == 3) CHECK(equilibrium == Approx(4 * std::pow(w, 0.7)));
 }
 
-TEMPLATE_TEST_CASE_SIG("C7: smoke and particles share one mass and one momentum", "[coupling]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("C7: smoke and particles share one mass and one momentum", "[coupling]", ((int Dim), Dim), 2,
+                       3) {
   const Side side = GENERATE(Side::closed, Side::open);
   Suspension<Dim> air = air_box<Dim>(6, 0.33, 1.2, side);
   stir<Dim>(air, 10);

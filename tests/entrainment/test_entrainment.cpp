@@ -16,11 +16,13 @@ namespace {
 constexpr double g = 9.81, d = 0.1;
 constexpr FailureThreshold always{1e-30, 1e-30};
 
-template <int Dim> Vec<Dim> down() {
+template <int Dim>
+Vec<Dim> down() {
   return -g * up<Dim>();
 }
 
-template <int Dim> Terrain<Dim> incline(double angle) {
+template <int Dim>
+Terrain<Dim> incline(double angle) {
   return Terrain<Dim>({{0, 0}, {500, -500 * std::tan(angle)}});
 }
 
@@ -65,7 +67,8 @@ Particles<Dim> sliding_on(const Terrain<Dim>& terrain, const Cover<Dim>& cover, 
   return snow;
 }
 
-template <int Dim> Vec<Dim> place(double s, double distance) {
+template <int Dim>
+Vec<Dim> place(double s, double distance) {
   Vec<Dim> p = Vec<Dim>::Constant(0.05);
   p[0] = s, p[Dim - 1] = distance;
   return p;

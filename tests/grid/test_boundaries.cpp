@@ -101,9 +101,8 @@ TEMPLATE_TEST_CASE_SIG("slivers between core and ground make no jets", "[suspens
   sides[Dim - 1][1] = Side::open;
   Suspension<Dim> air(grid, sides, exact_options<Dim>());
   Field<Dim> distance(grid.nodes());
-  for_each_index<Dim>(grid.nodes(), [&](const Index<Dim>& i) {
-    distance[i] = grid.node(i)[Dim - 1] - 2.73 + 0.3 * grid.node(i)[0];
-  });
+  for_each_index<Dim>(grid.nodes(),
+                      [&](const Index<Dim>& i) { distance[i] = grid.node(i)[Dim - 1] - 2.73 + 0.3 * grid.node(i)[0]; });
   air.set_ground(distance);
   std::vector<CoreCell<Dim>> cores;
   for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {

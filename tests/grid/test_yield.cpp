@@ -44,10 +44,11 @@ TEMPLATE_TEST_CASE_SIG("yielding faces: divergence-free, moved by the pressure b
   CHECK(c.largest_outflow() < 1e-7);
   double worst = 0;
   for (const HeavyCell<Dim>& core : heavy)
-    for_each_open_neighbour<Dim>(core.cell, c.open, c.kind, [&](int axis, const Index<Dim>& face, const auto& cell, int sign) {
-      const double impulse = projection.pressure()[cell] * c.open[axis][face] * c.grid.face_area() * c.dt;
-      worst = std::max(worst, std::abs(c.u[axis][face] - before[axis][face] + sign * impulse / core.mass));
-    });
+    for_each_open_neighbour<Dim>(
+        core.cell, c.open, c.kind, [&](int axis, const Index<Dim>& face, const auto& cell, int sign) {
+          const double impulse = projection.pressure()[cell] * c.open[axis][face] * c.grid.face_area() * c.dt;
+          worst = std::max(worst, std::abs(c.u[axis][face] - before[axis][face] + sign * impulse / core.mass));
+        });
   CHECK(worst < 1e-9);
 }
 

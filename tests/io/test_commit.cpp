@@ -13,7 +13,8 @@ const std::vector<std::string> durable_order{"open",   "write",       "fsync",  
                                              "rename", "open folder", "fsync folder"};
 
 /// What f throws.
-template <class F> Error error_of(F&& f) {
+template <class F>
+Error error_of(F&& f) {
   try {
     f();
   } catch (const Error& error) {

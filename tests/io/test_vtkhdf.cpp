@@ -33,7 +33,8 @@ class Opened {
     H5Sclose(space), H5Dclose(data);
     return result;
   }
-  template <class T> std::vector<T> values(const char* path, hid_t type) const {
+  template <class T>
+  std::vector<T> values(const char* path, hid_t type) const {
     std::size_t n = 1;
     for (const hsize_t k : shape(path)) n *= k;
     std::vector<T> result(n);
@@ -43,7 +44,8 @@ class Opened {
     H5Tclose(stored), H5Dclose(data);
     return result;
   }
-  template <class T> std::vector<T> attribute(const char* object, const char* name, hid_t type) const {
+  template <class T>
+  std::vector<T> attribute(const char* object, const char* name, hid_t type) const {
     const hid_t a = H5Aopen_by_name(file_, object, name, H5P_DEFAULT, H5P_DEFAULT), space = H5Aget_space(a);
     std::vector<T> result(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
     H5Aread(a, type, result.data());

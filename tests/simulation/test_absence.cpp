@@ -28,10 +28,18 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
   throw std::bad_alloc();
 }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
 
 namespace {
 
@@ -100,9 +108,8 @@ TEST_CASE("Physics of strength zero and absent physics end in the same bits", "[
 
 TEST_CASE("A warm step allocates nothing", "[absence]") {
   const ThreadLimit one(1);
-  const std::string text = GENERATE(
-      without(small_avalanche, parts[0].sections),
-      without(small_avalanche, {"entrainment", "cover"}), std::string(small_avalanche));
+  const std::string text = GENERATE(without(small_avalanche, parts[0].sections),
+                                    without(small_avalanche, {"entrainment", "cover"}), std::string(small_avalanche));
   Simulation<2> simulation(scene_of(text));
   // Growth is allowed while the flow spreads; a step that finds its arrays large enough must not allocate.
   std::uint64_t fewest = ~std::uint64_t{0};

@@ -13,22 +13,26 @@ using namespace spindrift;
 
 namespace {
 
-template <class T> constexpr bool is_optional = false;
-template <class T> constexpr bool is_optional<std::optional<T>> = true;
+template <class T>
+constexpr bool is_optional = false;
+template <class T>
+constexpr bool is_optional<std::optional<T>> = true;
 
 struct Anything {
   template <class T>
   requires(!is_optional<T>) operator T() const;  // NOLINT(google-explicit-constructor)
 };
 
-template <class T, std::size_t... I> constexpr bool takes(std::index_sequence<I...>) {
+template <class T, std::size_t... I>
+constexpr bool takes(std::index_sequence<I...>) {
   return requires {
     T{(static_cast<void>(I), Anything{})...};
   };
 }
 
 /// How many members a plain struct has.
-template <class T, std::size_t N = 40> constexpr std::size_t n_members() {
+template <class T, std::size_t N = 40>
+constexpr std::size_t n_members() {
   if constexpr (takes<T>(std::make_index_sequence<N>{})) {
     return N;
   } else {

@@ -28,7 +28,9 @@ std::string text_of(const fs::path& path) {
   return text.str();
 }
 
-nlohmann::json run_json(const fs::path& folder) { return nlohmann::json::parse(text_of(folder / "run.json")); }
+nlohmann::json run_json(const fs::path& folder) {
+  return nlohmann::json::parse(text_of(folder / "run.json"));
+}
 
 RunOptions into(const fs::path& folder) {
   RunOptions options;
@@ -49,11 +51,33 @@ TEST_CASE("A run leaves its folder: frames, pictures, diagnostics, summary", "[r
   const auto run = run_json(folder.path);
   CHECK(run["status"] == "done");
   CHECK(std::abs(run["mass"]["error_relative"].get<double>()) < 1e-12);
-  for (const char* key :
-       {"scene", "dim", "seed", "version", "time", "steps", "n_dense_initial", "n_dense", "n_entrained", "n_cover",
-        "grid_cells", "active_cells", "mass", "smoke_generated", "smoke_adhered", "front_x", "front_speed_max",
-        "cloud_height_max", "dt_min", "dt_mean", "dt_limiters", "wall_seconds", "ms_per_step", "stages", "threads",
-        "peak_memory_bytes", "digest"})
+  for (const char* key : {"scene",
+                          "dim",
+                          "seed",
+                          "version",
+                          "time",
+                          "steps",
+                          "n_dense_initial",
+                          "n_dense",
+                          "n_entrained",
+                          "n_cover",
+                          "grid_cells",
+                          "active_cells",
+                          "mass",
+                          "smoke_generated",
+                          "smoke_adhered",
+                          "front_x",
+                          "front_speed_max",
+                          "cloud_height_max",
+                          "dt_min",
+                          "dt_mean",
+                          "dt_limiters",
+                          "wall_seconds",
+                          "ms_per_step",
+                          "stages",
+                          "threads",
+                          "peak_memory_bytes",
+                          "digest"})
     CHECK(run.contains(key));
   CHECK(count_files(folder.path / "frames") == 6);  // t = 0, 0.2, 0.4: particles and smoke
   CHECK(count_files(folder.path / "preview") == 3);

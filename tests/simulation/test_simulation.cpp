@@ -38,9 +38,8 @@ TEMPLATE_TEST_CASE_SIG("Mass is constant and every exchange cancels, step by ste
   }
   CHECK(simulation.masses().n_entrained > 0);
   CHECK(simulation.smoke_mass() > 0);
-  CHECK(simulation.masses().generated ==
-        Approx(simulation.smoke_mass() + simulation.masses().adhered + simulation.masses().smoke_outflow +
-               simulation.masses().deposited));
+  CHECK(simulation.masses().generated == Approx(simulation.smoke_mass() + simulation.masses().adhered +
+                                                simulation.masses().smoke_outflow + simulation.masses().deposited));
 }
 
 TEMPLATE_TEST_CASE_SIG("The ledger accounts for all momentum of the snow and of the air", "[simulation]",
@@ -62,8 +61,8 @@ TEMPLATE_TEST_CASE_SIG("The ledger accounts for all momentum of the snow and of 
                                   r.bed_friction + r.wall_contact + r.core_reaction - r.outflow;
     REQUIRE((snow() - snow_before - snow_entries).norm() < 1e-11 * scale);
     const Vec<Dim> air = simulation.suspension()->momentum();
-    const Vec<Dim> air_entries = r.gravity_on_smoke + r.exchange_on_grid + b.core + b.advection + b.smoke + b.diffusion +
-                                 b.confinement + b.projection + r.ground_on_air;
+    const Vec<Dim> air_entries = r.gravity_on_smoke + r.exchange_on_grid + b.core + b.advection + b.smoke +
+                                 b.diffusion + b.confinement + b.projection + r.ground_on_air;
     REQUIRE((air - air_before - air_entries).norm() < 1e-11 * scale);
     snow_before = snow();
     air_before = air;
@@ -105,12 +104,11 @@ TEST_CASE("A runaway is caught in its step and named", "[simulation]") {
 }
 
 TEST_CASE("A11, on a cover: snow on ground below its friction angle comes to rest and stays", "[simulation]") {
-  const Scene scene = scene_of(without(small_avalanche, {"suspension", "suspension.confinement", "coupling.drag",
-                                                         "coupling.lift", "coupling.generation", "coupling.adhesion",
-                                                         "entrainment"}),
-                               {"terrain.angle=8 deg", "terrain.drop=1", "terrain.start=[0, 4]", "scene.end_time=6",
-                                "dense_flow.friction_mu=0.3", "release.velocity=[0, 0]", "release.length=5",
-                                "release.thickness=0.42"});
+  const Scene scene =
+      scene_of(without(small_avalanche, {"suspension", "suspension.confinement", "coupling.drag", "coupling.lift",
+                                         "coupling.generation", "coupling.adhesion", "entrainment"}),
+               {"terrain.angle=8 deg", "terrain.drop=1", "terrain.start=[0, 4]", "scene.end_time=6",
+                "dense_flow.friction_mu=0.3", "release.velocity=[0, 0]", "release.length=5", "release.thickness=0.42"});
   Simulation<2> simulation(scene);
   while (simulation.time() < 3) simulation.step();
   std::vector<Vec<2>> rest(simulation.dense()->particles.size());
@@ -128,8 +126,8 @@ TEST_CASE("Scenes without snow or without anything run", "[simulation]") {
   const std::string bare = without(small_avalanche, {"release", "cover", "entrainment"});
   const Simulation<2> empty = run<2>(scene_of(bare));
   CHECK(empty.dense()->particles.empty());
-  const Simulation<2> air = run<2>(scene_of(
-      "schema_version = 1\n[scene]\nend_time = 0.1\n[domain]\nlower=[0, 0]\nupper=[3, 3]\n[suspension]\n"));
+  const Simulation<2> air = run<2>(
+      scene_of("schema_version = 1\n[scene]\nend_time = 0.1\n[domain]\nlower=[0, 0]\nupper=[3, 3]\n[suspension]\n"));
   CHECK(air.stages().passes("suspension.pressure") == 0);  // air at rest is not solved for
   const Simulation<2> nothing =
       run<2>(scene_of("schema_version = 1\n[scene]\nend_time = 0.1\n[domain]\nlower=[0, 0]\nupper=[3, 3]\n"));

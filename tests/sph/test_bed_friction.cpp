@@ -13,16 +13,19 @@ namespace {
 
 constexpr double g = 9.81, d = 0.1, h = 0.2;
 
-template <int Dim> Vec<Dim> down() {
+template <int Dim>
+Vec<Dim> down() {
   return -g * up<Dim>();
 }
 
-template <int Dim> Terrain<Dim> incline(double angle) {
+template <int Dim>
+Terrain<Dim> incline(double angle) {
   return Terrain<Dim>({{0, 0}, {500, -500 * std::tan(angle)}});
 }
 
 /// A single row of snow at rest on the incline.
-template <int Dim> Particles<Dim> row(const Terrain<Dim>& terrain) {
+template <int Dim>
+Particles<Dim> row(const Terrain<Dim>& terrain) {
   return sample_slab<Dim>(terrain, {.at = 1, .length = 1, .thickness = d, .y = {0, 0.5}}, {.spacing = d});
 }
 

@@ -14,17 +14,20 @@ namespace {
 
 constexpr double d = 0.1, h = 0.2;
 
-template <int Dim> Terrain<Dim> flat_ground() {
+template <int Dim>
+Terrain<Dim> flat_ground() {
   return Terrain<Dim>({{0, 0}, {100, 0}});
 }
 
-template <int Dim> Vec<Dim> at(double x, double z) {
+template <int Dim>
+Vec<Dim> at(double x, double z) {
   Vec<Dim> p = Vec<Dim>::Constant(0.05);
   p[0] = x, p[Dim - 1] = z;
   return p;
 }
 
-template <int Dim> Particles<Dim> particles_at(const std::vector<Vec<Dim>>& positions) {
+template <int Dim>
+Particles<Dim> particles_at(const std::vector<Vec<Dim>>& positions) {
   Particles<Dim> all;
   for (const Vec<Dim>& x : positions) {
     Particles<Dim> one =
@@ -35,7 +38,8 @@ template <int Dim> Particles<Dim> particles_at(const std::vector<Vec<Dim>>& posi
   return all;
 }
 
-template <int Dim> double area() {
+template <int Dim>
+double area() {
   return ground_bin_area<Dim>(2 * d);
 }
 

@@ -24,12 +24,14 @@ std::vector<Vec<2>> profile(const std::string& shape) {
   return bumps;
 }
 
-template <int Dim> Cover<Dim> sampled(const Terrain<Dim>& terrain, double depth, double to, std::uint64_t seed = 1) {
+template <int Dim>
+Cover<Dim> sampled(const Terrain<Dim>& terrain, double depth, double to, std::uint64_t seed = 1) {
   CoverLayer layer{.from = 0, .to = to, .y = {0, 2}, .depth = depth, .seed = seed};
   return sample_cover<Dim>(terrain, layer, {.spacing = d, .density = 100, .first_id = 1000});
 }
 
-template <int Dim> NearestNeighbours by_brute_force(const std::vector<Vec<Dim>>& x) {
+template <int Dim>
+NearestNeighbours by_brute_force(const std::vector<Vec<Dim>>& x) {
   NearestNeighbours all{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < x.size(); ++i) {
     double least = std::numeric_limits<double>::infinity();

@@ -29,9 +29,14 @@ const std::map<std::string, std::set<std::string>> allowed{
 
 /// The one place of each package, as the beginning of a path under the root.
 const std::map<std::string, std::string> homes{
-    {"hdf5.h", "src/io/"},         {"cairo/", "src/io/"},      {"xxhash.h", "src/io/"},
-    {"nanoflann", "src/sph/sampling.cpp"}, {"CLI/", "apps/"},  {"toml++/", "src/simulation/toml_document.cpp"},
-    {"oneapi/tbb", "src/core/parallel"},   {"Random123/", "src/core/random.cpp"},
+    {"hdf5.h", "src/io/"},
+    {"cairo/", "src/io/"},
+    {"xxhash.h", "src/io/"},
+    {"nanoflann", "src/sph/sampling.cpp"},
+    {"CLI/", "apps/"},
+    {"toml++/", "src/simulation/toml_document.cpp"},
+    {"oneapi/tbb", "src/core/parallel"},
+    {"Random123/", "src/core/random.cpp"},
 };
 
 std::vector<fs::path> sources(const char* folder) {

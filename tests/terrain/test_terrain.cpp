@@ -11,7 +11,8 @@ using namespace spindrift;
 
 namespace {
 
-template <int Dim> Vec<Dim> at(double x, double z) {
+template <int Dim>
+Vec<Dim> at(double x, double z) {
   Vec<Dim> p = Vec<Dim>::Constant(0.7);
   p[0] = x;
   p[Dim - 1] = z;
