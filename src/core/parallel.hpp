@@ -85,7 +85,8 @@ double parallel_max(std::size_t n, double least, F&& f) {
       larger);
 }
 
-/// While it lives, parallel loops use at most `n_threads` threads (0: all of the machine's).
+/// While it lives, parallel loops use `n_threads` threads, also more than the machine has (0: all of the machine's).
+/// Limits may nest, on one thread.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int n_threads);

@@ -1,7 +1,11 @@
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numeric>
+#include <set>
+#include <thread>
 #include <vector>
 
 #include "core/error.hpp"
@@ -47,6 +51,27 @@ TEST_CASE("Sums are the same bits with any number of threads", "[core]") {
   for (std::size_t i = 0; i < n; ++i) plain += term(i);
   CHECK(sums[0] == Approx(plain));
   CHECK(parallel_sum(0, 1.5, term) == 1.5);
+}
+
+TEST_CASE("A thread limit holds while it lives", "[core]") {
+  const int all = n_threads();
+  for (const int limit : {1, 2, 4}) {
+    const ThreadLimit threads(limit);
+    CHECK(n_threads() == limit);
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    parallel_for(
+        64,
+        [&](std::size_t) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(2));
+          const std::lock_guard lock(mutex);
+          seen.insert(std::this_thread::get_id());
+        },
+        1);
+    CHECK(seen.size() <= static_cast<std::size_t>(limit));
+    if (limit > 1) CHECK(seen.size() > 1);
+  }
+  CHECK(n_threads() == all);
 }
 
 TEST_CASE("Every item is visited once", "[core]") {
