@@ -94,24 +94,16 @@ template <int Dim>
 void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
   const std::string number = fmt::format("{:06}", n_frames_++);
   const fs::path folder = options_.folder;
-  if (output_.particles && simulation.dense()) {
-    const std::string name = "frames/particles_" + number + ".hdf";
-    particle_series_.push_back({name, simulation.time()});
-    writer_.submit([path = folder / name, index = folder / "particles.hdf.series", series = particle_series_,
-                    frame = particle_frame(simulation)] {
+  const auto write = [&](const std::string& layer, std::vector<SeriesEntry>& series, auto frame) {
+    const std::string name = "frames/" + layer + "_" + number + ".hdf";
+    series.push_back({name, simulation.time()});
+    writer_.submit([path = folder / name, index = folder / (layer + ".hdf.series"), series, frame = std::move(frame)] {
       commit(path, frame.file());
       commit_series(index, series);
     });
-  }
-  if (output_.smoke && simulation.suspension()) {
-    const std::string name = "frames/smoke_" + number + ".hdf";
-    smoke_series_.push_back({name, simulation.time()});
-    writer_.submit([path = folder / name, index = folder / "smoke.hdf.series", series = smoke_series_,
-                    frame = smoke_frame(simulation)] {
-      commit(path, frame.file());
-      commit_series(index, series);
-    });
-  }
+  };
+  if (output_.particles && simulation.dense()) write("particles", particle_series_, particle_frame(simulation));
+  if (output_.smoke && simulation.suspension()) write("smoke", smoke_series_, smoke_frame(simulation));
   if constexpr (Dim == 2) {
     if (output_.preview)
       writer_.submit([path = folder / "preview" / (number + ".png"), frame = preview_frame(simulation)] {
