@@ -92,9 +92,8 @@ ParticleFrame particle_frame(const Simulation<Dim>& s) {
       vectors_of(s, members, "velocity", [](const Member& m, const auto& p) { return p.velocity[m.index]; }));
   frame.arrays.push_back(array_of<float>(
       s, members, "density", [](const Member& m, const auto& p) { return p.mass[m.index] / p.volume[m.index]; }));
-  frame.arrays.push_back(array_of<float>(s, members, "pressure", [](const Member& m, const auto& p) {
-    return p.pressure[m.index] + p.divergence_pressure[m.index];
-  }));
+  frame.arrays.push_back(
+      array_of<float>(s, members, "pressure", [](const Member& m, const auto& p) { return p.pressure[m.index]; }));
   frame.arrays.push_back(
       array_of<float>(s, members, "mass", [](const Member& m, const auto& p) { return p.mass[m.index]; }));
   frame.arrays.push_back(array_of<float>(s, members, "entrained_at",
@@ -145,7 +144,7 @@ std::string state_digest(const Simulation<Dim>& s) {
     digest.add(p.id[m.index]).add(static_cast<std::uint8_t>(m.cover));
     digest.add(std::span<const double>(p.position[m.index].data(), Dim));
     digest.add(std::span<const double>(p.velocity[m.index].data(), Dim));
-    digest.add(p.mass[m.index]).add(p.volume[m.index]).add(p.pressure[m.index]).add(p.divergence_pressure[m.index]);
+    digest.add(p.mass[m.index]).add(p.volume[m.index]).add(p.pressure[m.index]);
     digest.add(p.entrained_at[m.index]);
     if (m.cover) digest.add(s.cover()->hazard[m.index]);
   });

@@ -29,7 +29,7 @@ void find_normal_impulse(std::vector<double>& impulse, const DenseFlow<Dim>& den
   impulse.resize(p.size());
   parallel_for(p.size(), [&](std::size_t i) {
     const double into_bed = -dense.neighbours().boundary_gradient()[i].dot(columns.foot[i].normal);
-    impulse[i] = std::max(0.0, 2 * dt * p.volume[i] * (p.pressure[i] + p.divergence_pressure[i]) * into_bed);
+    impulse[i] = std::max(0.0, 2 * dt * p.volume[i] * p.pressure[i] * into_bed);
   });
 }
 

@@ -154,7 +154,6 @@ void CellList<Dim>::permute(Particles<Dim>& particles) {
   gather(particles.mass, other.mass);
   gather(particles.volume, other.volume);
   gather(particles.pressure, other.pressure);
-  gather(particles.divergence_pressure, other.divergence_pressure);
   gather(particles.entrained_at, other.entrained_at);
   gather(particles.id, other.id);
 }

@@ -12,14 +12,13 @@ namespace spindrift {
 /// State of a set of particles; every array has one entry a particle. Everything that steers the next step is here.
 template <int Dim>
 struct Particles {
-  std::vector<Vec<Dim>> position;  ///< x [m]
-  std::vector<Vec<Dim>> velocity;  ///< v [m s^-1]
-  std::vector<double> mass;        ///< m [kg], in 2D per metre of width
-  std::vector<double> volume;      ///< V [m^Dim], the rest volume; relaxes to m / rho_dense by compaction (R20)
-  std::vector<double> pressure;    ///< of the constant-density solve [Pa], kept as the next step's first guess
-  std::vector<double> divergence_pressure;  ///< the same of the divergence-free solve [Pa]
-  std::vector<double> entrained_at;         ///< time of entrainment [s]; -1 for released snow
-  std::vector<std::uint64_t> id;            ///< unique over dense flow and cover, for life
+  std::vector<Vec<Dim>> position;    ///< x [m]
+  std::vector<Vec<Dim>> velocity;    ///< v [m s^-1]
+  std::vector<double> mass;          ///< m [kg], in 2D per metre of width
+  std::vector<double> volume;        ///< V [m^Dim], the rest volume; relaxes to m / rho_dense by compaction (R20)
+  std::vector<double> pressure;      ///< of the last solve [Pa], kept as the next step's first guess
+  std::vector<double> entrained_at;  ///< time of entrainment [s]; -1 for released snow
+  std::vector<std::uint64_t> id;     ///< unique over dense flow and cover, for life
 
   std::size_t size() const { return id.size(); }
   bool empty() const { return id.empty(); }
@@ -37,7 +36,6 @@ struct Particles {
     mass.push_back(other.mass[i]);
     volume.push_back(other.volume[i]);
     pressure.push_back(other.pressure[i]);
-    divergence_pressure.push_back(other.divergence_pressure[i]);
     entrained_at.push_back(other.entrained_at[i]);
     id.push_back(other.id[i]);
   }
@@ -45,16 +43,16 @@ struct Particles {
   /// Calls f(array) for every array, always in the same order.
   template <class F>
   void for_each_array(F&& f) {
-    f(position), f(velocity), f(mass), f(volume), f(pressure), f(divergence_pressure), f(entrained_at), f(id);
+    f(position), f(velocity), f(mass), f(volume), f(pressure), f(entrained_at), f(id);
   }
   template <class F>
   void for_each_array(F&& f) const {
-    f(position), f(velocity), f(mass), f(volume), f(pressure), f(divergence_pressure), f(entrained_at), f(id);
+    f(position), f(velocity), f(mass), f(volume), f(pressure), f(entrained_at), f(id);
   }
 
   std::size_t bytes() const {
-    return spindrift::bytes(position, velocity) +
-           spindrift::bytes(mass, volume, pressure, divergence_pressure, entrained_at) + spindrift::bytes(id);
+    return spindrift::bytes(position, velocity) + spindrift::bytes(mass, volume, pressure, entrained_at) +
+           spindrift::bytes(id);
   }
 };
 

@@ -163,7 +163,6 @@ void append(Particles<Dim>& particles, const Vec<Dim>& x, const SnowKind<Dim>& k
   particles.mass.push_back(kind.density * volume);
   particles.volume.push_back(volume);
   particles.pressure.push_back(0);
-  particles.divergence_pressure.push_back(0);
   particles.entrained_at.push_back(-1);
 }
 

@@ -14,7 +14,6 @@ void add_particle(Particles<Dim>& p, const Vec<Dim>& x, const Vec<Dim>& v, doubl
   p.volume.push_back(volume);
   p.mass.push_back(density * volume);
   p.pressure.push_back(0);
-  p.divergence_pressure.push_back(0);
   p.entrained_at.push_back(-1);
   p.id.push_back(p.id.size());
 }
