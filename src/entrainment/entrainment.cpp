@@ -192,9 +192,13 @@ const Particles<Dim>& Entrainment<Dim>::take(Cover<Dim>& cover, const Particles<
       [&](std::size_t p) { clock ? run_clocks(patches_[p], cover, step) : draw(patches_[p], cover, step); }, 256);
 
   taken_.clear();
-  for (const Patch& patch : patches_)
+  bins_taken_.clear();
+  for (const Patch& patch : patches_) {
+    const std::size_t before = taken_.size();
     for (std::uint32_t k = patch.first; k < patch.end; ++k)
       if (cover.hazard[candidates_[k]] == passed) taken_.push_back(candidates_[k]);
+    if (taken_.size() > before) bins_taken_.push_back(patch.bin);
+  }
   std::sort(taken_.begin(), taken_.end(),
             [&](std::uint32_t i, std::uint32_t j) { return cover.particles.id[i] < cover.particles.id[j]; });
 
@@ -206,7 +210,7 @@ const Particles<Dim>& Entrainment<Dim>::take(Cover<Dim>& cover, const Particles<
     entrained_.entrained_at.back() = step.time;
     remove_from_cover(cover, slot);
   }
-  compact_cover(cover);
+  if (!compact_cover(cover)) settle_surface<Dim>(cover, bins_taken_);
   return entrained_;
 }
 

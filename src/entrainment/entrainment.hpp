@@ -69,7 +69,8 @@ class Entrainment {
   double mass_taken() const { return mass_taken_; }
   const EntrainmentOptions& options() const { return options_; }
   std::size_t bytes() const {
-    return entrained_.bytes() + spindrift::bytes(patches_) + spindrift::bytes(candidates_, taken_);
+    return entrained_.bytes() + spindrift::bytes(patches_) + spindrift::bytes(candidates_, taken_) +
+           spindrift::bytes(bins_taken_);
   }
 
  private:
@@ -90,6 +91,7 @@ class Entrainment {
   double mass_taken_ = 0;
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> candidates_, taken_;  ///< slots of the cover
+  std::vector<GroundBin<Dim>> bins_taken_;
 };
 
 }  // namespace spindrift

@@ -112,8 +112,10 @@ template <int Dim>
 std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls, std::uint64_t first_id) {
   if (!scene.cover) return std::nullopt;
   CoverLayer layer;
-  layer.from = std::max(scene.cover->from, ground_at(walls, walls.domain.lower[0]));
-  layer.to = scene.cover->to < 0 ? ground_at(walls, walls.domain.upper[0]) : scene.cover->to;
+  layer.ground_from = ground_at(walls, walls.domain.lower[0]);
+  layer.ground_to = ground_at(walls, walls.domain.upper[0]);
+  layer.from = std::max(scene.cover->from, layer.ground_from);
+  layer.to = scene.cover->to < 0 ? layer.ground_to : scene.cover->to;
   layer.y = breadth_of(walls.domain);
   layer.depth = scene.cover->depth;
   layer.seed = scene.scene.seed;

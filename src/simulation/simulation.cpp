@@ -230,7 +230,7 @@ void Simulation<Dim>::check_state() const {
 template <int Dim>
 CoverView<Dim> Simulation<Dim>::cover_view() const {
   if (!cover_) return {};
-  return {&cover_->particles, &cover_->cells};
+  return {&cover_->particles, &cover_->cells, &cover_->surface_normal};
 }
 
 template <int Dim>

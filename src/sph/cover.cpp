@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/parallel.hpp"
+
 namespace spindrift {
 namespace {
 
@@ -17,6 +19,48 @@ void sort_by_cell(Cover<Dim>& cover) {
   };
   reorder(cover.foot);
   reorder(cover.hazard);
+}
+
+/// The plane through the surface over the bins around `bin`, as its slopes along the ground [-].
+template <int Dim>
+Vec<Dim - 1> surface_slope(const Cover<Dim>& cover, const GroundBin<Dim>& bin) {
+  const GroundBin<Dim> first = ground_bin<Dim>(cover.ground_lower, cover.bin_size);
+  const GroundBin<Dim> last = ground_bin<Dim>(cover.ground_upper, cover.bin_size);
+  GroundBin<Dim> window;
+  window.fill(2 * surface_reach + 1);
+  Vec<Dim - 1> moment = Vec<Dim - 1>::Zero();
+  double squares = 0;
+  for_each_index<Dim - 1>(window, [&](const GroundBin<Dim>& step) {
+    GroundBin<Dim> near;
+    for (int k = 0; k < Dim - 1; ++k) near[k] = std::clamp(bin[k] + step[k] - surface_reach, first[k], last[k]);
+    const double height = cover.surface(near);
+    for (int k = 0; k < Dim - 1; ++k) moment[k] += (step[k] - surface_reach) * height;
+    squares += (step[0] - surface_reach) * (step[0] - surface_reach);
+  });
+  return moment / (squares * cover.bin_size);
+}
+
+/// Unit vectors along the ground: the direction of growing x, and in 3D the one across.
+template <int Dim>
+std::array<Vec<Dim>, Dim - 1> tangents(const Vec<Dim>& normal) {
+  const Vec<Dim> along = (Vec<Dim>::Unit(0) - normal[0] * normal).normalized();
+  if constexpr (Dim == 2)
+    return {along};
+  else
+    return {along, normal.cross(along)};
+}
+
+template <int Dim>
+void find_surface_normals(Cover<Dim>& cover, const GroundBin<Dim>& bin) {
+  const auto slots = cover.slots_in(bin);
+  if (slots.empty()) return;
+  const Vec<Dim - 1> slope = surface_slope(cover, bin);
+  for (const std::uint32_t slot : slots) {
+    Vec<Dim> normal = cover.foot[slot].normal;
+    const auto along = tangents<Dim>(normal);
+    for (int k = 0; k < Dim - 1; ++k) normal -= slope[k] * along[k];
+    cover.surface_normal[slot] = normal.normalized();
+  }
 }
 
 }  // namespace
@@ -76,6 +120,34 @@ void index_cover(Cover<Dim>& cover) {
                 const double above_i = cover.foot[i].distance, above_j = cover.foot[j].distance;
                 return above_i != above_j ? above_i > above_j : i < j;
               });
+
+  cover.surface_normal.resize(n);
+  for (std::size_t i = 0; i < n; ++i) cover.surface_normal[i] = cover.foot[i].normal;
+  parallel_for(
+      cover.first.size() - 1,
+      [&](std::size_t b) {
+        GroundBin<Dim> bin = unflat<Dim - 1>(b, cover.shape);
+        for (int k = 0; k < Dim - 1; ++k) bin[k] += cover.lower[k];
+        find_surface_normals(cover, bin);
+      },
+      64);
+}
+
+template <int Dim>
+void settle_surface(Cover<Dim>& cover, std::span<const GroundBin<Dim>> bins) {
+  std::vector<GroundBin<Dim>> around;
+  GroundBin<Dim> window;
+  window.fill(2 * surface_reach + 1);
+  for (const GroundBin<Dim>& bin : bins)
+    for_each_index<Dim - 1>(window, [&](const GroundBin<Dim>& step) {
+      GroundBin<Dim> near = bin;
+      for (int k = 0; k < Dim - 1; ++k) near[k] += step[k] - surface_reach;
+      around.push_back(near);
+    });
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  parallel_for(
+      around.size(), [&](std::size_t i) { find_surface_normals(cover, around[i]); }, 64);
 }
 
 template <int Dim>
@@ -108,6 +180,7 @@ bool compact_cover(Cover<Dim>& cover) {
 #define INSTANTIATE(Dim)                                          \
   template struct Cover<Dim>;                                     \
   template void index_cover<Dim>(Cover<Dim>&);                    \
+  template void settle_surface<Dim>(Cover<Dim>&, std::span<const GroundBin<Dim>>); \
   template void remove_from_cover<Dim>(Cover<Dim>&, std::size_t); \
   template bool compact_cover<Dim>(Cover<Dim>&);
 INSTANTIATE(2)

@@ -2,6 +2,7 @@
 /// The cover: resting snow on the ground that the avalanche may take up. Made by sample_cover.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,7 @@
 namespace spindrift {
 
 /// Slots of resting particles. An entrained particle leaves a dead slot behind, of mass and volume 0.
-/// State are particles, foot and hazard; the rest is derived by index_cover.
+/// State are particles, foot and hazard; the rest is derived by index_cover and settle_surface.
 template <int Dim>
 struct Cover {
   double spacing = 0;    ///< d [m]
@@ -24,12 +25,18 @@ struct Cover {
   std::vector<Foot<Dim>> foot;  ///< of every slot, as sampled
   std::vector<double> hazard;   ///< integral of the rate of entrainment so far (R15) [-]
   std::size_t n_dead = 0;
+  /// Where ground goes on, in places [m]: beyond, the surface is taken to go on level.
+  Vec<Dim - 1> ground_lower = Vec<Dim - 1>::Constant(-std::numeric_limits<double>::infinity());
+  Vec<Dim - 1> ground_upper = Vec<Dim - 1>::Constant(std::numeric_limits<double>::infinity());
 
   CellList<Dim> cells{1};              ///< of the particles, of size h = 2 d; dead slots included
   double bin_size = 0;                 ///< 2 d [m]
   GroundBin<Dim> lower{}, shape{};     ///< the block of bins that holds all live slots
   std::vector<std::uint32_t> first;    ///< of each bin of the block in `members`, and the end
   std::vector<std::uint32_t> members;  ///< slots by bin, farthest from the ground first
+  /// Unit normal of the smoothed surface at each slot's bin: of the plane through the surface of the bins around, by
+  /// least squares. Relief finer than that plane's breadth is the friction law's affair.
+  std::vector<Vec<Dim>> surface_normal;
 
   bool alive(std::size_t slot) const { return particles.volume[slot] > 0; }
   /// Depth below the initial surface [m].
@@ -43,7 +50,7 @@ struct Cover {
 
   std::size_t bytes() const {
     return particles.bytes() + cells.bytes() + spindrift::bytes(foot) + spindrift::bytes(hazard) +
-           spindrift::bytes(first, members);
+           spindrift::bytes(first, members) + spindrift::bytes(surface_normal);
   }
 };
 
@@ -51,6 +58,13 @@ struct Cover {
 /// Throws Error(unstable): a position that is not finite or over 10^6 cells away.
 template <int Dim>
 void index_cover(Cover<Dim>& cover);
+
+/// Bins on either side of a bin whose surface makes up its smoothed normal: 18 d in all.
+constexpr int surface_reach = 4;
+
+/// Finds the surface normals anew around `bins`, from which snow was taken. Cost: the bins within the reach.
+template <int Dim>
+void settle_surface(Cover<Dim>& cover, std::span<const GroundBin<Dim>> bins);
 
 /// Makes the slot dead: mass and volume 0.
 template <int Dim>

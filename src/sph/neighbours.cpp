@@ -131,6 +131,7 @@ void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::
   double share = walls.fraction;
   Vec<Dim> gradient = walls.gradient;
   double drag = input.no_slip ? input.wall_kernel.no_slip_coefficient(input.walls, x) : 0;
+  Vec<Dim> cover_gradient = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero();
   for (const auto& run : cover_runs) {
     for (std::uint32_t c = run.begin; c < run.end; ++c) {
       const Vec<Dim> away = x - input.cover.particles->position[c];
@@ -139,10 +140,13 @@ void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::
       const double volume = input.cover.particles->volume[c];
       const double r = std::sqrt(r_squared), slope_over_r = kernel.slope_over_r(r);
       share += volume * kernel.value(r);
-      gradient += (volume * slope_over_r) * away;
+      cover_gradient += (volume * slope_over_r) * away;
+      normal -= (volume * slope_over_r * r) * (*input.cover.surface_normal)[c];
       drag -= 2 * volume * slope_over_r;
     }
   }
+  if (const double weight = normal.squaredNorm(); weight > 0)
+    gradient += (cover_gradient.dot(normal) / weight) * normal;
   volume_sum_[i] += share;
   full_[i] = std::max(1.0, share + input.particles.volume[i] * kernel.sigma);
   boundary_[i] = gradient;

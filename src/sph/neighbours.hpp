@@ -19,6 +19,7 @@ template <int Dim>
 struct CoverView {
   const Particles<Dim>* particles = nullptr;
   const CellList<Dim>* cells = nullptr;
+  const std::vector<Vec<Dim>>* surface_normal = nullptr;  ///< n_c, of the smoothed surface at each particle
   bool present() const { return particles != nullptr && !particles->empty(); }
 };
 
@@ -36,9 +37,10 @@ class Neighbours {
 
   /// Finds all pairs of the particles, which `cells` has sorted, and per particle
   ///   delta = V W(0) + sum_j V_j W_ij + sum_c V_c W_ic + J
-  ///   b     = sum_c V_c grad W_ic + grad J / 2                                      [m^-1]
+  ///   b     = n n . sum_c V_c grad W_ic + grad J / 2                                [m^-1]
   ///   G     = sum_j V_j grad W_ij + 2 b                                             [m^-1]
-  /// over neighbours j, cover c and walls (J of WallKernel). Cover and walls are mirrors to the solvers (mirrored
+  /// over neighbours j, cover c and walls (J of WallKernel); n is the mean of n_c weighted with V_c |grad W_ic|, since
+  /// single particles that stand out of the cover are roughness, which the friction law stands for. Cover and walls are mirrors to the solvers (mirrored
   /// velocity, same pressure), so that one vector b stands for all of them. no_slip: also finds the viscous coefficient
   /// of the boundary, c = sum_c 2 V_c |dW/dr| / r + the walls' (WallKernel).
   void find(const Particles<Dim>& particles, const CellList<Dim>& cells, const Walls<Dim>& walls,

@@ -189,6 +189,10 @@ Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, co
   cover.spacing = d;
   cover.density = kind.density;
   cover.thickness = std::max(layer.depth, 0.0);
+  // Less d: a bin that the ground's end cuts may hold no particle.
+  cover.ground_lower[0] = layer.ground_from + d;
+  cover.ground_upper[0] = layer.ground_to - d;
+  if constexpr (Dim == 3) cover.ground_lower[1] = layer.y.from + d, cover.ground_upper[1] = layer.y.to - d;
   const bool empty = !(layer.depth > 0) || !(layer.to > layer.from) || (Dim == 3 && !(layer.y.to > layer.y.from));
   if (empty) {
     index_cover(cover);

@@ -28,6 +28,9 @@ struct SnowKind {
 
 struct CoverLayer {
   double from = 0, to = 0;  ///< arc length along the ground [m]
+  /// Arc length where the ground itself begins and ends [m]; an end of the cover that is not the ground's is a rim.
+  double ground_from = -std::numeric_limits<double>::infinity();
+  double ground_to = std::numeric_limits<double>::infinity();
   Breadth y{};              ///< in 3D
   double depth = 0.525;     ///< normal to the ground [m]
   std::uint64_t seed = 1;

