@@ -23,6 +23,12 @@ constexpr double least_cos_slope = 0.1;
 /// Marks a slot that leaves the cover in this step.
 constexpr double passed = std::numeric_limits<double>::infinity();
 
+/// Area of a particle's disc, Eq. (16) [m^(Dim-1)].
+template <int Dim>
+double disc(double d) {
+  return Dim == 2 ? d : std::numbers::pi / 4 * d * d;
+}
+
 /// The dense flow and the cover over a ground bin and the bins that touch it.
 template <int Dim>
 struct Surroundings {
@@ -166,10 +172,15 @@ void Entrainment<Dim>::run_clocks(const Patch& patch, Cover<Dim>& cover, const E
 }
 
 template <int Dim>
+double Entrainment<Dim>::flux(const Patch& patch, const Cover<Dim>& cover) const {
+  if (options_.rule == EntrainmentRule::clock) return options_.rate;
+  return options_.rate * disc<Dim>(cover.spacing) * (patch.end - patch.first) / ground_bin_area<Dim>(cover.bin_size);
+}
+
+template <int Dim>
 void Entrainment<Dim>::draw(const Patch& patch, Cover<Dim>& cover, const EntrainmentStep& step) const {
   const double d = cover.spacing;
-  const double disc = Dim == 2 ? d : std::numbers::pi / 4 * d * d;
-  const double probability = options_.rate * disc * step.dt / (cover.density * std::pow(d, Dim));
+  const double probability = options_.rate * disc<Dim>(d) * step.dt / (cover.density * std::pow(d, Dim));
   for (std::uint32_t k = patch.first; k < patch.end; ++k) {
     const std::uint32_t slot = candidates_[k];
     const double u = uniform(step.seed, RandomStream::bernoulli, cover.particles.id[slot], step.number);
@@ -193,7 +204,10 @@ const Particles<Dim>& Entrainment<Dim>::take(Cover<Dim>& cover, const Particles<
 
   taken_.clear();
   bins_taken_.clear();
+  fluxes_.clear();
   for (const Patch& patch : patches_) {
+    if (patch.end == patch.first) continue;
+    fluxes_.push_back({patch.bin, flux(patch, cover)});
     const std::size_t before = taken_.size();
     for (std::uint32_t k = patch.first; k < patch.end; ++k)
       if (cover.hazard[candidates_[k]] == passed) taken_.push_back(candidates_[k]);

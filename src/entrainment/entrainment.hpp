@@ -2,8 +2,10 @@
 /// Entrainment of the cover by the dense flow (paper Sec. 4.4.2).
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "entrainment/shared_traction.hpp"
 #include "entrainment/strain_rate.hpp"
 #include "sph/bed_friction.hpp"
 #include "sph/columns.hpp"
@@ -67,10 +69,12 @@ class Entrainment {
 
   /// Of the last take(): sum of m [kg].
   double mass_taken() const { return mass_taken_; }
+  /// Of the last take(): the mean flux that the rule stands for, of each bin with candidates.
+  std::span<const BedFlux<Dim>> fluxes() const { return fluxes_; }
   const EntrainmentOptions& options() const { return options_; }
   std::size_t bytes() const {
     return entrained_.bytes() + spindrift::bytes(patches_) + spindrift::bytes(candidates_, taken_) +
-           spindrift::bytes(bins_taken_);
+           spindrift::bytes(bins_taken_) + spindrift::bytes(fluxes_);
   }
 
  private:
@@ -84,6 +88,7 @@ class Entrainment {
   void find_patches(const Cover<Dim>& cover, const Columns<Dim>& columns);
   void find_candidates(Patch& patch, const View& view);
   void run_clocks(const Patch& patch, Cover<Dim>& cover, const EntrainmentStep& step) const;
+  double flux(const Patch& patch, const Cover<Dim>& cover) const;
   void draw(const Patch& patch, Cover<Dim>& cover, const EntrainmentStep& step) const;
 
   EntrainmentOptions options_;
@@ -92,6 +97,7 @@ class Entrainment {
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> candidates_, taken_;  ///< slots of the cover
   std::vector<GroundBin<Dim>> bins_taken_;
+  std::vector<BedFlux<Dim>> fluxes_;
 };
 
 }  // namespace spindrift

@@ -229,7 +229,9 @@ void add_rest(Registry& r) {
       .words<&E::column>("column", {"normal", "vertical"}, "along which the load of a particle is summed",
                          "Fig. 8, R12")
       .plain<&E::spontaneous>("spontaneous", "the cover may fail where no flow touches it", "R13")
-      .number<&E::friction_strain>("friction_strain", "", from(0, 1e12), "factor on gamma_f; 0: off", "Eq. (14), R14");
+      .number<&E::friction_strain>("friction_strain", "", from(0, 1e12), "factor on gamma_f; 0: off", "Eq. (14), R14")
+      .plain<&E::shared_traction>("shared_traction", "bed friction spares what brings entrained snow up to speed",
+                                  "R16");
 
   using O = OutputSection;
   Rows<&Scene::output>(r, "output", "what the run folder gets")

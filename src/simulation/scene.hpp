@@ -124,7 +124,8 @@ struct EntrainmentSection {
   double threshold_base = 1e-4;     ///< gamma_0 at its base [s^-1]
   std::string column = "normal";    ///< "normal" | "vertical"
   bool spontaneous = false;
-  double friction_strain = 1;  ///< factor on gamma_f = tau_f / eta; 0: off (R14)
+  double friction_strain = 1;   ///< factor on gamma_f = tau_f / eta; 0: off (R14)
+  bool shared_traction = true;  ///< bed friction spares what brings entrained snow up to speed (R16)
 };
 
 struct OutputSection {

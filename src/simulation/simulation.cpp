@@ -179,6 +179,8 @@ void Simulation<Dim>::entrain_cover() {
   const EntrainmentStep now{time_ + dt_, dt_, scene_.scene.seed, static_cast<std::uint32_t>(n_steps_)};
   const Particles<Dim>& taken = entrainment_->take(*cover_, dense_->particles, columns_,
                                                    bed_friction_.value_or(BedFriction{0, 0}), gravity_, now);
+  if (scene_.entrainment->shared_traction)
+    report_.bed_friction += share_traction<Dim>(dense_->particles, columns_, entrainment_->fluxes(), dt_);
   if (taken.empty()) return;
   for (std::size_t i = 0; i < taken.size(); ++i) dense_->particles.push_back_from(taken, i);
   if (!overlap_.empty()) overlap_.resize(dense_->particles.size(), 0);

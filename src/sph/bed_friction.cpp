@@ -28,14 +28,17 @@ double turbulent_rate(const BedFriction& friction, double g, double thickness, d
   return friction.xi > 0 ? g * dt / (friction.xi * thickness) : 0;
 }
 
-/// The sum of slow_column(column) over all columns, in a fixed order.
+/// Books slow_column(column), the impulse given to the bed, with each column; returns the sum, in a fixed order.
 template <int Dim, class F>
-Vec<Dim> sum_over_columns(const Columns<Dim>& columns, F&& slow_column) {
+Vec<Dim> book_columns(Columns<Dim>& columns, F&& slow_column) {
   return parallel_reduce(
       columns.columns.size(), Vec<Dim>(Vec<Dim>::Zero()),
       [&](std::size_t begin, std::size_t end) {
         Vec<Dim> impulse = Vec<Dim>::Zero();
-        for (std::size_t c = begin; c < end; ++c) impulse += slow_column(columns.columns[c]);
+        for (std::size_t c = begin; c < end; ++c) {
+          columns.columns[c].friction = slow_column(columns.columns[c]);
+          impulse += columns.columns[c].friction;
+        }
         return impulse;
       },
       [](const Vec<Dim>& a, const Vec<Dim>& b) -> Vec<Dim> { return a + b; }, 256);
@@ -49,11 +52,11 @@ double slowed_by_bed(double speed, double coulomb, double turbulent) {
 }
 
 template <int Dim>
-Vec<Dim> apply_column_friction(Particles<Dim>& dense, const Columns<Dim>& columns, const BedFriction& friction,
+Vec<Dim> apply_column_friction(Particles<Dim>& dense, Columns<Dim>& columns, const BedFriction& friction,
                                const Vec<Dim>& gravity, double dt) {
   SPINDRIFT_CHECK(columns.foot.size() == dense.size());
   const double g = gravity.norm();
-  return sum_over_columns(columns, [&](const Column<Dim>& column) {
+  return book_columns(columns, [&](const Column<Dim>& column) {
     Vec<Dim> impulse = Vec<Dim>::Zero();
     const double turbulent = turbulent_rate(friction, g, column.thickness, dt);
     for (const std::uint32_t i : columns.standing(column)) {
@@ -66,12 +69,12 @@ Vec<Dim> apply_column_friction(Particles<Dim>& dense, const Columns<Dim>& column
 }
 
 template <int Dim>
-Vec<Dim> apply_base_friction(Particles<Dim>& dense, const Columns<Dim>& columns, const BedFriction& friction,
+Vec<Dim> apply_base_friction(Particles<Dim>& dense, Columns<Dim>& columns, const BedFriction& friction,
                              const Vec<Dim>& gravity, std::span<const double> normal_impulse, double dt) {
   SPINDRIFT_CHECK(columns.foot.size() == dense.size() && normal_impulse.size() == dense.size());
   const double spacing = columns.bin_size / 2;
   const double turbulent = turbulent_rate(friction, gravity.norm(), spacing, dt);
-  return sum_over_columns(columns, [&](const Column<Dim>& column) {
+  return book_columns(columns, [&](const Column<Dim>& column) {
     Vec<Dim> impulse = Vec<Dim>::Zero();
     for (const std::uint32_t i : columns.standing(column)) {
       const Foot<Dim>& foot = columns.foot[i];
@@ -94,11 +97,11 @@ double bed_traction(const Column<Dim>& column, const BedFriction& friction, cons
   return coulomb + column.mass_per_area / column.thickness * gravity.norm() * speed_squared / friction.xi;
 }
 
-#define INSTANTIATE(Dim)                                                                                 \
-  template Vec<Dim> apply_column_friction<Dim>(Particles<Dim>&, const Columns<Dim>&, const BedFriction&, \
-                                               const Vec<Dim>&, double);                                 \
-  template Vec<Dim> apply_base_friction<Dim>(Particles<Dim>&, const Columns<Dim>&, const BedFriction&,   \
-                                             const Vec<Dim>&, std::span<const double>, double);          \
+#define INSTANTIATE(Dim)                                                                                            \
+  template Vec<Dim> apply_column_friction<Dim>(Particles<Dim>&, Columns<Dim>&, const BedFriction&, const Vec<Dim>&, \
+                                               double);                                                             \
+  template Vec<Dim> apply_base_friction<Dim>(Particles<Dim>&, Columns<Dim>&, const BedFriction&, const Vec<Dim>&,   \
+                                             std::span<const double>, double);                                      \
   template double bed_traction<Dim>(const Column<Dim>&, const BedFriction&, const Vec<Dim>&, const Vec<Dim>&);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -25,12 +25,12 @@ double slowed_by_bed(double speed, double coulomb, double turbulent);
 /// Friction on every particle that stands in a column, with the column's own thickness, on its velocity tangential to
 /// the bed; what flies over an air gap feels none. g_n = max(0, -g . n): none on an overhang or a cliff's face.
 /// dense    inout: velocities
-/// columns  in: of these particles in this order
+/// columns  inout: of these particles in this order; each gets the impulse that it gives
 /// gravity  g [m s^-2]
 /// Returns the impulse given to the bed [kg m s^-1].  Pre: dt >= 0. Without a terrain there are no columns, so the
 /// closed floor of a plain box has no friction: give it a terrain line instead.  Departure: R18.
 template <int Dim>
-Vec<Dim> apply_column_friction(Particles<Dim>& dense, const Columns<Dim>& columns, const BedFriction& friction,
+Vec<Dim> apply_column_friction(Particles<Dim>& dense, Columns<Dim>& columns, const BedFriction& friction,
                                const Vec<Dim>& gravity, double dt);
 
 /// Friction on the basal row alone: particles within one spacing d of the bed, or pushed by it. The Coulomb part takes
@@ -38,7 +38,7 @@ Vec<Dim> apply_column_friction(Particles<Dim>& dense, const Columns<Dim>& column
 /// normal_impulse  in: given to each particle by the bed in this step [kg m s^-1], >= 0, size n_dense
 /// Otherwise as apply_column_friction.  Departure: R18, `acts_on = "base"`.
 template <int Dim>
-Vec<Dim> apply_base_friction(Particles<Dim>& dense, const Columns<Dim>& columns, const BedFriction& friction,
+Vec<Dim> apply_base_friction(Particles<Dim>& dense, Columns<Dim>& columns, const BedFriction& friction,
                              const Vec<Dim>& gravity, std::span<const double> normal_impulse, double dt);
 
 /// Tangential traction of a moving column on its bed [Pa].

@@ -22,8 +22,10 @@ struct Column {
   double thickness = 0;                  ///< h_flow = sum V / A, at least d [m]; 0: nothing stands on the bed
   double mass_per_area = 0;              ///< sum m / A [kg m^-2]
   Vec<Dim> velocity = Vec<Dim>::Zero();  ///< of the column's centre of mass [m s^-1]
-  std::uint32_t first = 0, end = 0;      ///< in Columns::members: all particles over the bin
-  std::uint32_t end_standing = 0;        ///< [first, end_standing): those of the column
+  Vec<Dim> friction =
+      Vec<Dim>::Zero();              ///< impulse that the bed took from it in this step [kg m s^-1] (bed_friction.hpp)
+  std::uint32_t first = 0, end = 0;  ///< in Columns::members: all particles over the bin
+  std::uint32_t end_standing = 0;    ///< [first, end_standing): those of the column
 };
 
 template <int Dim>

@@ -177,11 +177,11 @@ bool compact_cover(Cover<Dim>& cover) {
   return true;
 }
 
-#define INSTANTIATE(Dim)                                          \
-  template struct Cover<Dim>;                                     \
-  template void index_cover<Dim>(Cover<Dim>&);                    \
+#define INSTANTIATE(Dim)                                                           \
+  template struct Cover<Dim>;                                                      \
+  template void index_cover<Dim>(Cover<Dim>&);                                     \
   template void settle_surface<Dim>(Cover<Dim>&, std::span<const GroundBin<Dim>>); \
-  template void remove_from_cover<Dim>(Cover<Dim>&, std::size_t); \
+  template void remove_from_cover<Dim>(Cover<Dim>&, std::size_t);                  \
   template bool compact_cover<Dim>(Cover<Dim>&);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "sph/kernels.hpp"
@@ -24,6 +25,7 @@ struct Neighbours<Dim>::Input {
 template <int Dim>
 void Neighbours<Dim>::find(const Particles<Dim>& particles, const CellList<Dim>& cells, const Walls<Dim>& walls,
                            const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip) {
+  SPINDRIFT_CHECK(!cover.present() || cover.surface_normal->size() == cover.particles->size());
   const std::size_t n = particles.size();
   blocks_.resize((n + block_size - 1) / block_size);
   row_end_.resize(n);

@@ -40,9 +40,9 @@ class Neighbours {
   ///   b     = n n . sum_c V_c grad W_ic + grad J / 2                                [m^-1]
   ///   G     = sum_j V_j grad W_ij + 2 b                                             [m^-1]
   /// over neighbours j, cover c and walls (J of WallKernel); n is the mean of n_c weighted with V_c |grad W_ic|, since
-  /// single particles that stand out of the cover are roughness, which the friction law stands for. Cover and walls are mirrors to the solvers (mirrored
-  /// velocity, same pressure), so that one vector b stands for all of them. no_slip: also finds the viscous coefficient
-  /// of the boundary, c = sum_c 2 V_c |dW/dr| / r + the walls' (WallKernel).
+  /// single particles that stand out of the cover are roughness, which the friction law stands for. Cover and walls are
+  /// mirrors to the solvers (mirrored velocity, same pressure), so that one vector b stands for all of them. no_slip:
+  /// also finds the viscous coefficient of the boundary, c = sum_c 2 V_c |dW/dr| / r + the walls' (WallKernel).
   void find(const Particles<Dim>& particles, const CellList<Dim>& cells, const Walls<Dim>& walls,
             const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip);
 

@@ -31,8 +31,8 @@ struct CoverLayer {
   /// Arc length where the ground itself begins and ends [m]; an end of the cover that is not the ground's is a rim.
   double ground_from = -std::numeric_limits<double>::infinity();
   double ground_to = std::numeric_limits<double>::infinity();
-  Breadth y{};              ///< in 3D
-  double depth = 0.525;     ///< normal to the ground [m]
+  Breadth y{};           ///< in 3D
+  double depth = 0.525;  ///< normal to the ground [m]
   std::uint64_t seed = 1;
   int relaxation_steps = 40;  ///< at most
 };

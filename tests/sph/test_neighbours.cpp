@@ -103,12 +103,14 @@ TEMPLATE_TEST_CASE_SIG("sums over neighbours, cover and walls match brute force"
   CellList<Dim> cover_cells(h);
   cover_cells.build(cover);
   Stages stages;
-  flow.sort_and_find_neighbours(walls, {&cover, &cover_cells}, stages);
+  std::vector<Vec<Dim>> normals;
+  for (const Vec<Dim>& x : cover.position) normals.push_back((Vec<Dim>::Unit(Dim - 1) + 0.5 * x).normalized());
+  flow.sort_and_find_neighbours(walls, {&cover, &cover_cells, &normals}, stages);
   const CubicSpline<Dim> kernel(h);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const WallShare<Dim> wall = flow.wall_kernel().share(walls, p.position[i]);
     double sum = wall.fraction;
-    Vec<Dim> boundary = wall.gradient, all = Vec<Dim>::Zero();
+    Vec<Dim> boundary = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(), all = Vec<Dim>::Zero();
     for (std::size_t j = 0; j < p.size(); ++j) {
       const Vec<Dim> x = p.position[i] - p.position[j];
       sum += p.volume[j] * kernel.value(x.norm());
@@ -118,7 +120,10 @@ TEMPLATE_TEST_CASE_SIG("sums over neighbours, cover and walls match brute force"
       const Vec<Dim> x = p.position[i] - cover.position[c];
       sum += cover.volume[c] * kernel.value(x.norm());
       boundary += cover.volume[c] * kernel.gradient(x);
+      normal += cover.volume[c] * kernel.gradient(x).norm() * normals[c];
     }
+    if (normal.norm() > 0) boundary = boundary.dot(normal.normalized()) * normal.normalized();
+    boundary += wall.gradient;
     all += 2 * boundary;
     CHECK(flow.neighbours().volume_sum()[i] == Approx(sum).epsilon(1e-5));
     CHECK((flow.neighbours().boundary_gradient()[i] - boundary).norm() * h < 1e-9);

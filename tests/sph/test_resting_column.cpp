@@ -69,6 +69,7 @@ TEST_CASE("a short column rests on cover", "[column]") {
   CellList<2> cells(2 * d);
   cells.build(cover);
   cells.release_scratch();
+  const std::vector<Vec<2>> normals(cover.size(), up<2>());
   DenseFlow<2> flow(options_for<2>(d));
   add_block<2>(flow.particles, {10, 10}, d, 300, {0, 3 * d});
   const Walls<2> walls = box<2>({10 * d, 30 * d});
@@ -76,7 +77,7 @@ TEST_CASE("a short column rests on cover", "[column]") {
   double impulse = 0, time = 0;
   for (int k = 0; k < 200; ++k) {
     const double dt = std::min(0.01, flow.time_step_limit(0.4, g));
-    impulse += step<2>(flow, dt, walls, {0, -g}, stages, {&cover, &cells})[1];
+    impulse += step<2>(flow, dt, walls, {0, -g}, stages, {&cover, &cells, &normals})[1];
     time += dt;
   }
   CHECK(impulse / time == Approx(300 * g).epsilon(0.02));

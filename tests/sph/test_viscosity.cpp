@@ -107,6 +107,7 @@ TEST_CASE("cover holds viscous snow where it does not slip", "[viscosity]") {
   add_block<2>(cover, {20, 3}, d, 100, {0, -3 * d});
   CellList<2> cells(2 * d);
   cells.build(cover);
+  const std::vector<Vec<2>> normals(cover.size(), up<2>());
   DenseFlowOptions options = options_for<2>(d);
   options.viscosity = 50;
   options.no_slip = GENERATE(true, false);
@@ -114,7 +115,7 @@ TEST_CASE("cover holds viscous snow where it does not slip", "[viscosity]") {
   add_block<2>(flow.particles, {10, 3}, d, 300, {5 * d, 0});
   for (auto& v : flow.particles.velocity) v = {1, 0};
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<2>(), {&cover, &cells}, stages);
+  flow.sort_and_find_neighbours(no_walls<2>(), {&cover, &cells, &normals}, stages);
   const double before = momentum(flow.particles)[0];
   const auto done = flow.solve_velocity(0.01, stages);
   CHECK(momentum(flow.particles)[0] - before == Approx(done.boundary_impulse[0]).margin(1e-9));
