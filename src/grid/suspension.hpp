@@ -13,6 +13,7 @@
 #include "grid/diffusion.hpp"
 #include "grid/grid_sources.hpp"
 #include "grid/ground.hpp"
+#include "grid/inflow.hpp"
 #include "grid/pressure_projection.hpp"
 #include "grid/smoke_transport.hpp"
 
@@ -26,6 +27,7 @@ struct SuspensionOptions {
   double viscosity = 0;                                  ///< kinematic, of the air [m^2 s^-1]
   double diffusivity = 0;                                ///< of the smoke [m^2 s^-1]
   double settling_speed = 0;          ///< of the smoke relative to the air, along gravity [m s^-1] (R19)
+  Vec<Dim> wind = Vec<Dim>::Zero();   ///< velocity of the air that open sides let in [m s^-1]
   std::optional<double> confinement;  ///< epsilon of vorticity confinement
   ProjectionOptions pressure;
   bool moving_core = true;  ///< R10; false: the paper's rule, normal velocity 0

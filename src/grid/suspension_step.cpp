@@ -32,6 +32,7 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
     const auto timed = stages.time("suspension.advection");
     const AdvectionFrame<Dim> frame{grid_, ground_, carrier_, carrier_speed_, flow_area_};
     advection_.advect(velocity_, frame, dt, options_.scheme);
+    let_in_ambient_air<Dim>(velocity_, carrier_, flow_area_, grid_, sides_, options_.wind, dt);
     book(budget_.advection);
   }
   move_smoke(dt, stages);
