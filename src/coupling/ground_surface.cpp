@@ -45,21 +45,31 @@ GroundSurface<Dim>::GroundSurface(const Terrain<Dim>& terrain, const MacGrid<Dim
 }
 
 template <int Dim>
-std::array<int, 2> GroundSurface<Dim>::follow(const Cover<Dim>& cover, std::span<const Vec<Dim>> places) {
-  if (places.empty()) return {0, 0};
-  double left = places[0][0], right = left;
-  for (const Vec<Dim>& x : places) left = std::min(left, x[0]), right = std::max(right, x[0]);
+std::span<const Span> GroundSurface<Dim>::follow(const Cover<Dim>& cover, std::span<const Vec<Dim>> places) {
   // A node's cover is read up to two bins aside of its foot, and the foot lies up to the reach of near_ aside of it.
   const double aside = 2 * cover.bin_size + reach_;
   const auto column = [&](double x) {
     return static_cast<int>(std::clamp(std::floor((x - grid_.origin[0]) / grid_.dx), 0.0, grid_.cells[0] - 1.0));
   };
-  const int begin = column(left - aside), end = column(right + aside) + 1;
-  const auto first =
-      std::lower_bound(near_.begin(), near_.end(), begin, [](const Near& near, int c) { return near.column < c; });
-  for (auto near = first; near != near_.end() && near->column <= end; ++near)
-    distance_[near->node] = near->terrain_distance - cover_height<Dim>(cover, near->place);
-  return {begin, end};
+  moved_.clear();
+  for (const Vec<Dim>& x : places) moved_.push_back({column(x[0] - aside), column(x[0] + aside) + 1});
+  std::sort(moved_.begin(), moved_.end(), [](Span a, Span b) { return a.begin < b.begin; });
+  std::size_t n = 0;
+  for (const Span span : moved_) {
+    if (n > 0 && span.begin <= moved_[n - 1].end + 2 * Ground<Dim>::reach) {
+      moved_[n - 1].end = std::max(moved_[n - 1].end, span.end);
+    } else {
+      moved_[n++] = span;
+    }
+  }
+  moved_.resize(n);
+  for (const Span span : moved_) {
+    const auto first = std::lower_bound(near_.begin(), near_.end(), span.begin,
+                                        [](const Near& near, int c) { return near.column < c; });
+    for (auto near = first; near != near_.end() && near->column <= span.end; ++near)
+      distance_[near->node] = near->terrain_distance - cover_height<Dim>(cover, near->place);
+  }
+  return moved_;
 }
 
 template class GroundSurface<2>;

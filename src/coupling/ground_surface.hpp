@@ -1,11 +1,10 @@
 #pragma once
 /// The suspension's lower boundary: the cover's surface, which sinks as snow is entrained, or the bare terrain (R21).
 
-#include <array>
 #include <span>
 #include <vector>
 
-#include "grid/mac_grid.hpp"
+#include "grid/ground.hpp"
 #include "sph/cover.hpp"
 #include "terrain/terrain.hpp"
 
@@ -21,9 +20,9 @@ class GroundSurface {
   /// only its sign.
   const Field<Dim>& node_distance() const { return distance_; }
 
-  /// Follows the cover's surface where snow was taken from `places`. Cost: the nodes near the surface.
-  /// Returns the columns of cells [begin, end) along the first axis whose nodes have moved.
-  std::array<int, 2> follow(const Cover<Dim>& cover, std::span<const Vec<Dim>> places);
+  /// Follows the cover's surface where snow was taken from `places`. Cost: the nodes near these.
+  /// Returns the columns of cells along the first axis whose nodes may have moved, apart from each other, ascending.
+  std::span<const Span> follow(const Cover<Dim>& cover, std::span<const Vec<Dim>> places);
 
   std::size_t bytes() const { return distance_.bytes() + spindrift::bytes(near_); }
 
@@ -38,6 +37,7 @@ class GroundSurface {
   double reach_;  ///< distance up to which nodes follow the surface [m]
   Field<Dim> distance_;
   std::vector<Near> near_;
+  std::vector<Span> moved_;  ///< scratch
 };
 
 }  // namespace spindrift

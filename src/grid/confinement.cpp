@@ -1,6 +1,9 @@
 #include "grid/confinement.hpp"
 
+#include <cmath>
+
 #include "core/parallel.hpp"
+#include "grid/pack.hpp"
 
 namespace spindrift {
 namespace {
@@ -8,121 +11,156 @@ namespace {
 /// Air that turns slower than this is left alone [s^-1]: far from the cloud it is the pressure solver's rounding.
 constexpr double quiet_vorticity = 0.01;
 
-/// Calls f(flat number, index) for the cells that have neighbours on all sides, in the rows for which wanted(row).
-template <int Dim, class Wanted, class F>
-void for_each_inner_cell(const Field<Dim>& field, Wanted&& wanted, F&& f) {
-  const Index<Dim> shape = field.shape();
-  parallel_for(
-      field.n_rows(),
-      [&](std::size_t r) {
-        if (!wanted(r)) return;
-        Index<Dim> i = field.row_start(r);
-        for (std::size_t k = 1; k < Dim; ++k)
-          if (i[k] == 0 || i[k] + 1 == shape[k]) return;
-        for (i[0] = 1; i[0] + 1 < shape[0]; ++i[0])
-          f(r * static_cast<std::size_t>(shape[0]) + static_cast<std::size_t>(i[0]), i);
-      },
-      field.rows_per_task());
+/// Whether a row of cells has neighbours on all sides.
+template <int Dim>
+bool is_inner_row(const Index<Dim>& start, const Index<Dim>& shape) {
+  for (std::size_t k = 1; k < Dim; ++k)
+    if (start[k] == 0 || start[k] + 1 == shape[k]) return false;
+  return true;
 }
+
+/// Central difference of the velocity at cell centres, along a row of cells, times 4 dx.
+template <int Dim>
+struct Difference {
+  const double *low, *high;  ///< lower faces of the cells on both sides
+  std::ptrdiff_t next;       ///< from a cell's lower to its upper face
+
+  Difference(const FaceField<Dim>& u, int component, int axis, const Index<Dim>& start) {
+    const Field<Dim>& field = u[static_cast<std::size_t>(component)];
+    next = field.stride(component);
+    low = &field[start] - field.stride(axis);
+    high = &field[start] + field.stride(axis);
+  }
+  double operator()(int i) const { return (high[i] + high[i + next]) - (low[i] + low[i + next]); }
+};
 
 }  // namespace
 
 template <int Dim>
-void Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area, const MacGrid<Dim>& grid,
-                             double strength, double dt) {
-  if (size_.size() == 0) {
-    size_ = inner_ = Field<Dim>(grid.cells);
-    centre_.fill(size_);
-    curl_.fill(size_);
-  }
-  std::array<std::size_t, Dim> stride;
-  for (int k = 0; k < Dim; ++k) stride[static_cast<std::size_t>(k)] = static_cast<std::size_t>(size_.stride(k));
+void Confinement<Dim>::find_vorticity(const FaceField<Dim>& u, const MacGrid<Dim>& grid) {
+  const double quarter = 0.25 / grid.dx;
+  turning_.assign(size_.n_rows(), 0);
   parallel_for(
       size_.n_rows(),
       [&](std::size_t r) {
         const Index<Dim> start = size_.row_start(r);
-        const auto n = static_cast<std::size_t>(grid.cells[0]);
-        double* inner = inner_.row(r).data();
-        std::fill(inner, inner + n, 1.0);
-        for (std::size_t k = 0; k < Dim; ++k) {
-          const double *low = &u[k][start], *area = &flow_area[k][start];
-          double* centre = centre_[k].row(r).data();
-          const auto next = static_cast<std::size_t>(u[k].stride(static_cast<int>(k)));
-          for (std::size_t i = 0; i < n; ++i) {
-            centre[i] = 0.5 * (low[i] + low[i + next]);
-            inner[i] = area[i] > 0 && area[i + next] > 0 ? inner[i] : 0;
+        if (!is_inner_row<Dim>(start, grid.cells)) return;
+        const int n = grid.cells[0];
+        double* size = size_.row(r).data();
+        if constexpr (Dim == 2) {
+          double* curl = curl_[0].row(r).data();
+          const Difference<Dim> a(u, 0, 1, start), b(u, 1, 0, start);
+          for (int i = 1; i < n - 1; ++i) {
+            curl[i] = quarter * (a(i) - b(i));
+            size[i] = std::abs(curl[i]);
+          }
+        } else {
+          std::array<double*, 3> curl;
+          for (std::size_t k = 0; k < 3; ++k) curl[k] = curl_[k].row(r).data();
+          const Difference<Dim> zy(u, 2, 1, start), yz(u, 1, 2, start), xz(u, 0, 2, start), zx(u, 2, 0, start),
+              yx(u, 1, 0, start), xy(u, 0, 1, start);
+          for (int i = 1; i < n - 1; ++i) {
+            curl[0][i] = quarter * (zy(i) - yz(i));
+            curl[1][i] = quarter * (xz(i) - zx(i));
+            curl[2][i] = quarter * (yx(i) - xy(i));
+            size[i] = std::sqrt(curl[0][i] * curl[0][i] + curl[1][i] * curl[1][i] + curl[2][i] * curl[2][i]);
           }
         }
+        turning_[r] = max_packs(1, n - 1, [&]<class T>(int i) { return load<T>(size + i); }) > quiet_vorticity;
       },
       size_.rows_per_task());
-  const double half = 0.5 / grid.dx;
-  turning_.assign(size_.n_rows(), 0);
-  const std::size_t row_length = static_cast<std::size_t>(grid.cells[0]);
-  const auto every = [](std::size_t) { return true; };
-  for_each_inner_cell<Dim>(size_, every, [&](std::size_t n, const Index<Dim>&) {
-    const auto d = [&](std::size_t component, std::size_t axis) {
-      return half * (centre_[component][n + stride[axis]] - centre_[component][n - stride[axis]]);
-    };
-    if constexpr (Dim == 2) {
-      curl_[0][n] = d(0, 1) - d(1, 0);
-      size_[n] = std::abs(curl_[0][n]);
-    } else {
-      curl_[0][n] = d(2, 1) - d(1, 2);
-      curl_[1][n] = d(0, 2) - d(2, 0);
-      curl_[2][n] = d(1, 0) - d(0, 1);
-      size_[n] = std::hypot(curl_[0][n], curl_[1][n], curl_[2][n]);
+}
+
+/// Of the cells of row r; 0 where the air is quiet or a neighbour has a closed face.
+template <int Dim>
+void Confinement<Dim>::find_force(std::size_t r, const FaceField<Dim>& flow_area, const MacGrid<Dim>& grid,
+                                  double strength) {
+  for (auto& force : force_) std::fill(force.row(r).begin(), force.row(r).end(), 0.0);
+  if (!turning_[r]) return;
+  const auto open = [&](const Index<Dim>& cell) {
+    for (int k = 0; k < Dim; ++k) {
+      const Field<Dim>& area = flow_area[static_cast<std::size_t>(k)];
+      if (!(area[cell] > 0) || !(area[shifted<Dim>(cell, k, 1)] > 0)) return false;
     }
-    if (size_[n] > quiet_vorticity) turning_[n / row_length] = 1;
-  });
-  // A face takes half of the force of each cell beside it: rows beside one whose air turns have a share in it.
-  const auto turns = [&](std::size_t r) { return turning_[r] != 0; };
-  const auto turns_below = [&](std::size_t r) {
-    bool any = turns(r);
-    for (std::size_t k = 1; k < Dim; ++k)
-      any = any || (r * row_length >= stride[k] && turns(r - stride[k] / row_length));
-    return any;
+    return true;
   };
-  const auto turns_near = [&](std::size_t r) {
-    bool any = turns_below(r);
-    for (std::size_t k = 1; k < Dim; ++k) {
-      const std::size_t above = r + stride[k] / row_length;
-      any = any || (above < turning_.size() && turns(above));
+  Index<Dim> i = size_.row_start(r);
+  for (i[0] = 1; i[0] + 1 < grid.cells[0]; ++i[0]) {
+    if (!(size_[i] > quiet_vorticity)) continue;
+    bool inner = open(i);
+    Vec<Dim> gradient;
+    for (int k = 0; k < Dim; ++k) {
+      const Index<Dim> below = shifted<Dim>(i, k, -1), above = shifted<Dim>(i, k, 1);
+      inner = inner && open(below) && open(above);
+      gradient[k] = size_[above] - size_[below];
+    }
+    const double steepness = gradient.norm();
+    if (!inner || !(steepness > 0)) continue;
+    Curl<Dim> omega;
+    for (std::size_t k = 0; k < n_curl<Dim>; ++k) omega[static_cast<int>(k)] = curl_[k][i];
+    const Vec<Dim> force = strength * grid.dx * cross<Dim>(Vec<Dim>(gradient / steepness), omega);
+    for (std::size_t k = 0; k < Dim; ++k) force_[k][i] = force[static_cast<int>(k)];
+  }
+}
+
+template <int Dim>
+Vec<Dim> Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area, const Ground<Dim>& ground,
+                                 const Field<Dim>& smoke, const MacGrid<Dim>& grid, double strength, double dt) {
+  if (size_.size() == 0) {
+    size_ = Field<Dim>(grid.cells);
+    force_.fill(size_);
+    curl_.fill(size_);
+  }
+  find_vorticity(u, grid);
+  // A face takes half of the force of each cell beside it: rows beside one whose air turns have a share in it.
+  const std::size_t row_length = static_cast<std::size_t>(grid.cells[0]);
+  const auto any_turns = [&](std::size_t r, bool above_too) {
+    bool any = turning_[r] != 0;
+    for (int k = 1; k < Dim; ++k) {
+      const std::size_t rows = static_cast<std::size_t>(size_.stride(k)) / row_length;
+      any = any || (r >= rows && turning_[r - rows]) || (above_too && r + rows < turning_.size() && turning_[r + rows]);
     }
     return any;
   };
   parallel_for(
       size_.n_rows(),
       [&](std::size_t r) {
-        if (!turns_near(r)) return;
-        for (auto& force : centre_) std::fill(force.row(r).begin(), force.row(r).end(), 0.0);
+        if (any_turns(r, true)) find_force(r, flow_area, grid, strength);
       },
       size_.rows_per_task());
-  for_each_inner_cell<Dim>(size_, turns, [&](std::size_t n, const Index<Dim>&) {
-    if (!(size_[n] > quiet_vorticity)) return;
-    Vec<Dim> gradient;
-    bool inner = inner_[n] > 0;
-    for (std::size_t k = 0; k < Dim; ++k) {
-      inner = inner && inner_[n + stride[k]] > 0 && inner_[n - stride[k]] > 0;
-      gradient[static_cast<int>(k)] = half * (size_[n + stride[k]] - size_[n - stride[k]]);
+
+  const auto push_row = [&](std::size_t r) -> Vec<Dim> {
+    Vec<Dim> given = Vec<Dim>::Zero();
+    const Index<Dim> start = size_.row_start(r);
+    if (!any_turns(r, false) || !is_inner_row<Dim>(start, grid.cells)) return given;
+    for (int k = 0; k < Dim; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      const std::ptrdiff_t stride = size_.stride(k);
+      double* speed = &u[axis][start];
+      const double *area = &flow_area[axis][start], *air = &ground.air_mass()[axis][start];
+      const double *force = &force_[axis][start], *mass = &smoke[start];
+      for (int i = 1; i + 1 < grid.cells[0]; ++i) {
+        const double change = area[i] > 0 ? dt * 0.5 * (force[i] + force[i - stride]) : 0;
+        speed[i] += change;
+        given[k] += (air[i] + 0.5 * (mass[i] + mass[i - stride])) * change;
+      }
     }
-    const double steepness = gradient.norm();
-    if (!inner || !(steepness > 0)) return;
-    Curl<Dim> omega;
-    for (std::size_t k = 0; k < n_curl<Dim>; ++k) omega[static_cast<int>(k)] = curl_[k][n];
-    const Vec<Dim> force = strength * grid.dx * cross<Dim>(Vec<Dim>(gradient / steepness), omega);
-    for (std::size_t k = 0; k < Dim; ++k) centre_[k][n] = force[static_cast<int>(k)];
-  });
-  for (std::size_t k = 0; k < Dim; ++k) {
-    for_each_inner_cell<Dim>(size_, turns_below, [&](std::size_t n, const Index<Dim>& i) {
-      if (flow_area[k][i] > 0) u[k][i] += dt * 0.5 * (centre_[k][n] + centre_[k][n - stride[k]]);
-    });
-  }
+    return given;
+  };
+  return parallel_reduce(
+      size_.n_rows(), Vec<Dim>(Vec<Dim>::Zero()),
+      [&](std::size_t begin, std::size_t end) {
+        Vec<Dim> given = Vec<Dim>::Zero();
+        for (std::size_t r = begin; r < end; ++r) given += push_row(r);
+        return given;
+      },
+      [](const Vec<Dim>& a, const Vec<Dim>& b) -> Vec<Dim> { return a + b; }, size_.rows_per_task());
 }
 
 template <int Dim>
 std::size_t Confinement<Dim>::bytes() const {
-  std::size_t n = size_.bytes() + inner_.bytes() + spindrift::bytes(turning_);
-  for (const auto& f : centre_) n += f.bytes();
+  std::size_t n = size_.bytes() + spindrift::bytes(turning_);
+  for (const auto& f : force_) n += f.bytes();
   for (const auto& f : curl_) n += f.bytes();
   return n;
 }

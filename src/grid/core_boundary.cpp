@@ -1,5 +1,7 @@
 #include "grid/core_boundary.hpp"
 
+#include "grid/face_mass.hpp"
+
 namespace spindrift {
 namespace {
 
@@ -17,13 +19,16 @@ void for_each_neighbour(const Index<Dim>& cell, const Index<Dim>& shape, F&& f) 
 }  // namespace
 
 template <int Dim>
-void CoreBoundary<Dim>::push_out_smoke(Field<Dim>& smoke, std::span<CoreCell<Dim>> cores, const FaceField<Dim>& u,
-                                       const Field<Dim, CellKind>& kind, const Ground<Dim>& ground) const {
+Vec<Dim> CoreBoundary<Dim>::push_out_smoke(Field<Dim>& smoke, std::span<CoreCell<Dim>> cores, const FaceField<Dim>& u,
+                                           const Field<Dim, CellKind>& kind, const Ground<Dim>& ground) const {
+  Vec<Dim> gained = Vec<Dim>::Zero();
   for (CoreCell<Dim>& core : cores) {
     core.adhered = 0;
     core.adhered_momentum.setZero();
     const double mass = smoke[core.cell];
     if (mass <= 0) continue;
+    const Vec<Dim> momentum = momentum_of_smoke<Dim>(mass, core.cell, u, ground);
+    gained -= momentum;
     double open = 0;
     for_each_neighbour<Dim>(core.cell, smoke.shape(),
                             [&](int axis, const Index<Dim>& face, const Index<Dim>& other, int) {
@@ -31,34 +36,32 @@ void CoreBoundary<Dim>::push_out_smoke(Field<Dim>& smoke, std::span<CoreCell<Dim
                             });
     if (open > 0) {
       double left = mass;
-      std::size_t last = 0;
+      Index<Dim> last{};
       for_each_neighbour<Dim>(core.cell, smoke.shape(),
                               [&](int axis, const Index<Dim>& face, const Index<Dim>& other, int) {
                                 if (kind[other] != CellKind::open || ground.open()[axis][face] <= 0) return;
                                 const double part = mass * (ground.open()[axis][face] / open);
-                                last = flat<Dim>(other, smoke.shape());
-                                smoke[last] += part;
+                                last = other;
+                                smoke[other] += part;
+                                gained += momentum_of_smoke<Dim>(part, other, u, ground);
                                 left -= part;
                               });
       smoke[last] = std::max(0.0, smoke[last] + left);
     } else {
       core.adhered = mass;
-      for (int axis = 0; axis < Dim; ++axis) {
-        for (int side = 0; side < 2; ++side) {
-          const Index<Dim> face = shifted<Dim>(core.cell, axis, side);
-          if (ground.open()[axis][face] > 0) core.adhered_momentum[axis] += 0.5 * mass * u[axis][face];
-        }
-      }
+      core.adhered_momentum = momentum;
     }
     smoke[core.cell] = 0;
   }
+  return gained;
 }
 
 template <int Dim>
-void CoreBoundary<Dim>::set_velocity(FaceField<Dim>& u, std::span<CoreCell<Dim>> cores,
-                                     const Field<Dim, CellKind>& kind, const Field<Dim>& smoke,
-                                     const Ground<Dim>& ground, bool moving) {
-  if (cores.empty()) return;
+Vec<Dim> CoreBoundary<Dim>::set_velocity(FaceField<Dim>& u, std::span<CoreCell<Dim>> cores,
+                                         const Field<Dim, CellKind>& kind, const Field<Dim>& smoke,
+                                         const Ground<Dim>& ground, bool moving) {
+  Vec<Dim> gained = Vec<Dim>::Zero();
+  if (cores.empty()) return gained;
   if (core_number_.size() == 0) core_number_ = Field<Dim, std::uint32_t>(smoke.shape());
   for (std::size_t n = 0; n < cores.size(); ++n) {
     core_number_[cores[n].cell] = static_cast<std::uint32_t>(n);
@@ -102,8 +105,10 @@ void CoreBoundary<Dim>::set_velocity(FaceField<Dim>& u, std::span<CoreCell<Dim>>
       u[axis][face] = speed;
       cores[n].impulse[axis] -= 0.5 * impulse;
       cores[second].impulse[axis] -= 0.5 * impulse;
+      gained[axis] += impulse;
     });
   }
+  return gained;
 }
 
 template <int Dim>

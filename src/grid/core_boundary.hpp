@@ -29,15 +29,15 @@ class CoreBoundary {
   explicit CoreBoundary(const Sides& sides) : sides_(sides) {}
 
   /// Smoke in core cells goes to open neighbours in proportion to the open area between, else it adheres: sets
-  /// CoreCell::adhered and adhered_momentum.
-  void push_out_smoke(Field<Dim>& smoke, std::span<CoreCell<Dim>> cores, const FaceField<Dim>& u,
-                      const Field<Dim, CellKind>& kind, const Ground<Dim>& ground) const;
+  /// CoreCell::adhered and adhered_momentum. Returns the grid's gain of momentum [kg m/s].
+  Vec<Dim> push_out_smoke(Field<Dim>& smoke, std::span<CoreCell<Dim>> cores, const FaceField<Dim>& u,
+                          const Field<Dim, CellKind>& kind, const Ground<Dim>& ground) const;
 
   /// Faces of core cells take the common velocity of the core's snow and the air on its faces, between two core cells
   /// the mean; 0 unless `moving`. Closed faces stay, and so do faces between two pocket cells, whose air waits. Sets
-  /// CoreCell::impulse to the momentum that the air loses by it.
-  void set_velocity(FaceField<Dim>& u, std::span<CoreCell<Dim>> cores, const Field<Dim, CellKind>& kind,
-                    const Field<Dim>& smoke, const Ground<Dim>& ground, bool moving);
+  /// CoreCell::impulse to the momentum that the air loses by it, and returns the sum, the air's gain [kg m/s].
+  Vec<Dim> set_velocity(FaceField<Dim>& u, std::span<CoreCell<Dim>> cores, const Field<Dim, CellKind>& kind,
+                        const Field<Dim>& smoke, const Ground<Dim>& ground, bool moving);
 
   /// The core cells that yield to the air's pressure in the projection, with their mass.
   std::span<const HeavyCell<Dim>> heavy_cells(std::span<const CoreCell<Dim>> cores, const Field<Dim, CellKind>& kind);

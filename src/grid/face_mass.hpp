@@ -1,6 +1,9 @@
 #pragma once
 /// Sums over faces weighted with the mass of their control volumes: air and half of each neighbour cell's smoke.
 
+#include <algorithm>
+#include <limits>
+
 #include "core/parallel.hpp"
 #include "grid/ground.hpp"
 #include "grid/pack.hpp"
@@ -10,13 +13,16 @@ namespace spindrift {
 /// sum of face mass times value<T>(face, low, high), in a fixed order, over the open faces. face, low, high: flat
 /// numbers of the (first) face and of the cells on its sides, at a side of the domain twice the one that exists. T =
 /// Pack or double. value is also called for closed faces; it may change the face's velocity.
+/// columns   only faces of these, along the first axis
 template <int Dim, class F>
-double sum_over_faces(int axis, const Ground<Dim>& ground, const Field<Dim>& smoke, F&& value) {
+double sum_over_faces(int axis, const Ground<Dim>& ground, const Field<Dim>& smoke, F&& value,
+                      Span columns = {0, std::numeric_limits<int>::max()}) {
   const Field<Dim>& air = ground.air_mass()[axis];
   const int n = smoke.shape()[axis];
   const auto below = static_cast<std::size_t>(smoke.stride(axis));
   const auto sum_of_row = [&](std::size_t r) {
-    const Span span = ground.rows(axis)[r];
+    const Span open = ground.rows(axis)[r];
+    const Span span{std::max(open.begin, columns.begin), std::min(open.end, columns.end)};
     if (span.empty()) return 0.0;
     const Index<Dim> start = air.row_start(r);
     const std::size_t first = flat<Dim>(start, air.shape()), first_cell = flat<Dim>(start, smoke.shape());
@@ -55,6 +61,41 @@ double sum_over_faces(int axis, const Ground<Dim>& ground, const Field<Dim>& smo
         return sum;
       },
       [](double a, double b) { return a + b; }, air.rows_per_task());
+}
+
+/// Momentum that `mass` of smoke brings to a cell: half to each of its faces on both sides, closed ones take none.
+template <int Dim>
+Vec<Dim> momentum_of_smoke(double mass, const Index<Dim>& cell, const FaceField<Dim>& u, const Ground<Dim>& ground) {
+  Vec<Dim> momentum = Vec<Dim>::Zero();
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const Index<Dim> face = shifted<Dim>(cell, axis, side);
+      if (ground.air_mass()[axis][face] > 0) momentum[axis] += 0.5 * mass * u[axis][face];
+    }
+  }
+  return momentum;
+}
+
+/// The same of all smoke, in a fixed order.
+template <int Dim>
+Vec<Dim> momentum_of_smoke(const Field<Dim>& smoke, const FaceField<Dim>& u, const Ground<Dim>& ground) {
+  const auto has_smoke = [](double m) { return m != 0; };
+  return parallel_reduce(
+      smoke.n_rows(), Vec<Dim>(Vec<Dim>::Zero()),
+      [&](std::size_t begin, std::size_t end) {
+        Vec<Dim> sum = Vec<Dim>::Zero();
+        for (std::size_t r = begin; r < end; ++r) {
+          const auto row = smoke.row(r);
+          const auto first = std::find_if(row.begin(), row.end(), has_smoke);
+          Index<Dim> cell = smoke.row_start(r);
+          for (auto i = static_cast<std::size_t>(first - row.begin()); i < row.size(); ++i) {
+            cell[0] = static_cast<int>(i);
+            if (row[i] != 0) sum += momentum_of_smoke<Dim>(row[i], cell, u, ground);
+          }
+        }
+        return sum;
+      },
+      [](const Vec<Dim>& a, const Vec<Dim>& b) -> Vec<Dim> { return a + b; }, smoke.rows_per_task());
 }
 
 }  // namespace spindrift

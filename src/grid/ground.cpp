@@ -59,14 +59,28 @@ Ground<Dim>::Ground(const MacGrid<Dim>& grid, double air_density)
 }
 
 template <int Dim>
-void Ground<Dim>::set(const Field<Dim>& node_distance, int begin, int end) {
+void Ground<Dim>::set(const Field<Dim>& node_distance, std::span<const Span> columns) {
   SPINDRIFT_CHECK(node_distance.shape() == grid_.nodes());
-  for_each_in_columns<Dim>(grid_.nodes(), begin, end + 1, [&](const Index<Dim>& i) {
-    if (std::isfinite(node_distance[i])) return;
-    std::string where;
-    for (const int k : i) where += " " + std::to_string(k);
-    throw Error(ExitCode::bad_input, "distance to the ground is not finite at node" + where);
-  });
+  for (const auto& [begin, end] : columns) {
+    for_each_in_columns<Dim>(grid_.nodes(), begin, end + 1, [&](const Index<Dim>& i) {
+      if (std::isfinite(node_distance[i])) return;
+      std::string where;
+      for (const int k : i) where += " " + std::to_string(k);
+      throw Error(ExitCode::bad_input, "distance to the ground is not finite at node" + where);
+    });
+  }
+  for (const auto& [begin, end] : columns) {
+    set_fractions(node_distance, begin, end);
+    for (int axis = 0; axis < Dim; ++axis) {
+      set_air_mass(axis, std::max(begin - 1, 0), std::min(end + 1, grid_.cells[0]));
+      set_layers(axis, begin, end);
+    }
+  }
+  set_lists();
+}
+
+template <int Dim>
+void Ground<Dim>::set_fractions(const Field<Dim>& node_distance, int begin, int end) {
   for (int axis = 0; axis < Dim; ++axis) {
     for_each_in_columns<Dim>(grid_.faces(axis), begin, axis == 0 ? end + 1 : end, [&](const Index<Dim>& i) {
       const double fraction = open_fraction<Dim - 1>(corners<Dim - 1, Dim>(node_distance, i, axis));
@@ -82,11 +96,6 @@ void Ground<Dim>::set(const Field<Dim>& node_distance, int begin, int end) {
     volume_[i] = largest_opening > 0 ? whole * std::max(fraction, smallest_volume) : 0;
     small_[i] = volume_[i] > 0 && is_small(volume_[i]);
   });
-  for (int axis = 0; axis < Dim; ++axis) {
-    set_air_mass(axis, std::max(begin - 1, 0), std::min(end + 1, grid_.cells[0]));
-    set_layers(axis, begin, end);
-  }
-  set_lists();
 }
 
 template <int Dim>

@@ -2,8 +2,10 @@
 /// The bed in the grid: which part of each face and cell is open (R21: a cut-cell wall, not a staircase), and velocity
 /// carried on into it, so that whatever interpolates near the wall sees a free-slip wall.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "grid/mac_grid.hpp"
@@ -16,15 +18,22 @@ struct Span {
   bool empty() const { return end <= begin; }
 };
 
+/// The smallest span that holds both.
+inline Span joined(Span a, Span b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
+
 template <int Dim>
 class Ground {
  public:
   /// Everything open.
   Ground(const MacGrid<Dim>& grid, double air_density);
 
-  /// Signed distance at nodes [m], positive in the air, for the columns [begin, end) of cells.
+  /// Signed distance at nodes [m], positive in the air, for the given columns of cells, apart from each other.
   /// Throws Error(bad_input): a distance that is not finite; then nothing has changed.
-  void set(const Field<Dim>& node_distance, int begin, int end);
+  void set(const Field<Dim>& node_distance, std::span<const Span> columns);
 
   /// Open area fraction of faces, 0..1; fractions under `smallest_opening` count as closed.
   const FaceField<Dim>& open() const { return open_; }
@@ -49,8 +58,11 @@ class Ground {
   static constexpr double smallest_opening = 0.01;
   static constexpr double smallest_volume = 0.1;
   static constexpr int n_layers = 3;
+  /// Columns beyond those of set() or clear_deep() whose faces may change.
+  static constexpr int reach = n_layers + 1;
 
  private:
+  void set_fractions(const Field<Dim>& node_distance, int begin, int end);
   void set_air_mass(int axis, int begin, int end);
   void set_layers(int axis, int begin, int end);
   void set_lists();

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double largest_share = 0.98;  ///< of a cell's volume that may leave it at once: room for round-off
 
-Span joined(Span a, Span b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
-}
-
 template <int Dim>
 std::size_t row_of(const Index<Dim>& cell, const Index<Dim>& shape) {
   return flat<Dim>(cell, shape) / static_cast<std::size_t>(shape[0]);

@@ -17,6 +17,7 @@ Suspension<Dim>::Suspension(const MacGrid<Dim>& grid, const Sides& sides, const 
       velocity_(make_face_field<Dim>(grid)),
       smoke_(grid.cells),
       kind_(grid.cells, CellKind::open),
+      last_kind_(kind_),
       projection_(grid, sides),
       ground_(grid, options.air_density),
       active_(make_face_field<Dim, unsigned char>(grid)),
@@ -36,6 +37,7 @@ void Suspension<Dim>::set_velocity(const FaceField<Dim>& u) {
     SPINDRIFT_CHECK(u[axis].shape() == velocity_[axis].shape());
     std::ranges::copy(u[axis].values(), velocity_[axis].values().begin());
   }
+  momentum_.reset();
   start_from_velocity();
 }
 
@@ -43,6 +45,7 @@ template <int Dim>
 void Suspension<Dim>::set_smoke_mass(const Field<Dim>& smoke) {
   SPINDRIFT_CHECK(smoke.shape() == grid_.cells);
   std::ranges::copy(smoke.values(), smoke_.values().begin());
+  momentum_.reset();
 }
 
 template <int Dim>
@@ -61,27 +64,43 @@ void Suspension<Dim>::set_pressure(const Field<Dim>& pressure) {
 
 template <int Dim>
 void Suspension<Dim>::set_ground(const Field<Dim>& node_distance) {
-  set_ground(node_distance, 0, grid_.cells[0]);
+  const std::array<Span, 1> all{Span{0, grid_.cells[0]}};
+  set_ground(node_distance, all);
 }
 
 template <int Dim>
-void Suspension<Dim>::set_ground(const Field<Dim>& node_distance, int begin, int end) {
-  ground_.set(node_distance, begin, end);
-  ground_.clear_deep(velocity_, begin, end);
-  ground_.clear_deep(carrier_, begin, end);
-  advection_.clear_deep(ground_, begin, end);
-  for (std::size_t r = 0; r < kind_.n_rows(); ++r) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      CellKind& kind = kind_.row(r)[i];
-      if (ground_.volume().row(r)[i] <= 0) {
-        kind = CellKind::solid;
-      } else if (kind == CellKind::solid) {
-        kind = CellKind::open;
+Vec<Dim> Suspension<Dim>::set_ground(const Field<Dim>& node_distance, std::span<const Span> columns) {
+  const auto momentum_around = [&] {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    int done = 0;
+    for (const Span span : columns) {
+      sum += momentum({std::max(done, span.begin - Ground<Dim>::reach), span.end + Ground<Dim>::reach});
+      done = span.end + Ground<Dim>::reach;
+    }
+    return sum;
+  };
+  const Vec<Dim> before = momentum_around();
+  ground_.set(node_distance, columns);
+  for (const auto& [begin, end] : columns) {
+    ground_.clear_deep(velocity_, begin, end);
+    ground_.clear_deep(carrier_, begin, end);
+    advection_.clear_deep(ground_, begin, end);
+    for (std::size_t r = 0; r < kind_.n_rows(); ++r) {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+        CellKind& kind = kind_.row(r)[i];
+        if (ground_.volume().row(r)[i] <= 0) {
+          kind = CellKind::solid;
+        } else if (kind == CellKind::solid) {
+          kind = CellKind::open;
+        }
       }
     }
+    update_active(begin, end);
   }
   kinds_are_old_ = true;
-  update_active(begin, end);
+  const Vec<Dim> change = momentum_around() - before;
+  if (momentum_) *momentum_ += change;
+  return change;
 }
 
 template <int Dim>
@@ -97,12 +116,13 @@ double Suspension<Dim>::smoke_density(std::size_t cell) const {
 }
 
 template <int Dim>
-Vec<Dim> Suspension<Dim>::momentum() const {
+Vec<Dim> Suspension<Dim>::momentum(Span columns) const {
   Vec<Dim> sum;
   for (int axis = 0; axis < Dim; ++axis) {
     const double* u = velocity_[axis].values().data();
     sum[axis] = sum_over_faces<Dim>(
-        axis, ground_, smoke_, [u]<class T>(std::size_t face, std::size_t, std::size_t) { return load<T>(u + face); });
+        axis, ground_, smoke_, [u]<class T>(std::size_t face, std::size_t, std::size_t) { return load<T>(u + face); },
+        columns);
   }
   return sum;
 }
@@ -177,6 +197,7 @@ Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
           return du;
         });
   }
+  if (momentum_) *momentum_ += change;
   return change;
 }
 
@@ -199,14 +220,16 @@ Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sources) {
     }
   }
   disturbed_ = disturbed_ || n > 0;
+  if (momentum_) *momentum_ += change;
   return change;
 }
 
 template <int Dim>
 std::size_t Suspension<Dim>::bytes() const {
-  std::size_t n = smoke_.bytes() + kind_.bytes() + density_.bytes() + projection_.bytes() + ground_.bytes() +
-                  advection_.bytes() + smoke_transport_.bytes() + diffusion_.bytes() + confinement_.bytes() +
-                  core_boundary_.bytes() + components_.bytes() + spindrift::bytes(face_momentum_);
+  std::size_t n = smoke_.bytes() + kind_.bytes() + last_kind_.bytes() + density_.bytes() + projection_.bytes() +
+                  ground_.bytes() + advection_.bytes() + smoke_transport_.bytes() + diffusion_.bytes() +
+                  confinement_.bytes() + core_boundary_.bytes() + components_.bytes() +
+                  spindrift::bytes(face_momentum_);
   for (std::size_t axis = 0; axis < Dim; ++axis)
     n += velocity_[axis].bytes() + carrier_[axis].bytes() + active_[axis].bytes() + flow_area_[axis].bytes() +
          spindrift::bytes(carrier_speed_[axis]);

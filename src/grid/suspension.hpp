@@ -3,6 +3,7 @@
 ///
 /// One step is: add_gravity, apply (the exchange's sources), advance. Between steps the velocity is divergence-free.
 
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -75,9 +76,10 @@ class Suspension {
   void set_pressure(const Field<Dim>& pressure);
 
   /// The bed's surface: signed distance at nodes [m], positive in the air.  Throws Error(bad_input): not finite.
-  /// begin, end: only cells of these columns (along the first axis) have changed; the result is the same to the bit.
+  /// columns: only cells of these (along the first axis, apart from each other, ascending) have changed; the result is
+  /// the same to the bit. Returns the change of momentum() [kg m s^-1].
   void set_ground(const Field<Dim>& node_distance);
-  void set_ground(const Field<Dim>& node_distance, int begin, int end);
+  Vec<Dim> set_ground(const Field<Dim>& node_distance, std::span<const Span> columns);
   const Ground<Dim>& ground() const { return ground_; }
 
   /// Faces that the exchange may use, 1 or 0: open, between two open cells or at an open side.
@@ -88,7 +90,7 @@ class Suspension {
   /// rho_smoke of a cell [kg m^-3] over its open volume, floored as in Ground.
   double smoke_density(std::size_t cell) const;
   /// sum over faces of face_mass u [kg m s^-1].
-  Vec<Dim> momentum() const;
+  Vec<Dim> momentum() const { return momentum({0, std::numeric_limits<int>::max()}); }
   double total_smoke() const;  ///< [kg]
   double max_speed() const;    ///< largest face velocity at the last step's end [m/s]; NaN: not finite
 
@@ -111,6 +113,7 @@ class Suspension {
   std::size_t bytes() const;
 
  private:
+  Vec<Dim> momentum(Span columns) const;
   bool at_rest(std::span<const CoreCell<Dim>> cores) const;
   void classify(std::span<CoreCell<Dim>> cores);
   void update_active(int begin, int end);
@@ -124,7 +127,7 @@ class Suspension {
 
   FaceField<Dim> velocity_;
   Field<Dim> smoke_;
-  Field<Dim, CellKind> kind_;
+  Field<Dim, CellKind> kind_, last_kind_;
   PressureProjection<Dim> projection_;
 
   Ground<Dim> ground_;
@@ -132,8 +135,9 @@ class Suspension {
   FaceField<Dim> flow_area_;  ///< open area of active faces [m^(Dim-1)], 0 of the others
   FaceField<Dim> carrier_;    ///< divergence-free velocity of the step's start, which carries air and smoke
   RowSpeeds<Dim> carrier_speed_;
-  bool disturbed_ = false;      ///< gravity or sources have changed the velocity since the last advance()
-  bool kinds_are_old_ = false;  ///< ground or kinds have been set since they were derived
+  bool disturbed_ = false;            ///< gravity or sources have changed the velocity since the last advance()
+  std::optional<Vec<Dim>> momentum_;  ///< momentum() where the entries since the last step tell it
+  bool kinds_are_old_ = false;        ///< ground or kinds have been set since they were derived
 
   VelocityAdvection<Dim> advection_;
   SmokeTransport<Dim> smoke_transport_;

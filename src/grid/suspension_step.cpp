@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "grid/face_mass.hpp"
 #include "grid/suspension.hpp"
 
 namespace spindrift {
@@ -12,20 +13,19 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
   if (!std::isfinite(max_speed())) throw Error(ExitCode::unstable, "the air's velocity is not finite");
   if (at_rest(cores)) return move_smoke(dt, stages);
 
-  Vec<Dim> last = momentum();
-  const auto book = [&](Vec<Dim>& entry) {
-    const Vec<Dim> now = momentum();
-    entry += now - last;
-    last = now;
+  Vec<Dim> last = momentum_ ? *momentum_ : momentum();
+  const auto book = [&](Vec<Dim>& entry, const Vec<Dim>& change) {
+    entry += change;
+    last += change;
   };
+  const auto book_all = [&](Vec<Dim>& entry) { book(entry, momentum() - last); };
 
   // 1. The dense core moves its faces (R10).
   if (!cores.empty() || kinds_are_old_) {
     const auto timed = stages.time("suspension.core");
     classify(cores);
-    core_boundary_.push_out_smoke(smoke_, cores, velocity_, kind_, ground_);
-    core_boundary_.set_velocity(velocity_, cores, kind_, smoke_, ground_, options_.moving_core);
-    book(budget_.core);
+    book(budget_.core, core_boundary_.push_out_smoke(smoke_, cores, velocity_, kind_, ground_));
+    book(budget_.core, core_boundary_.set_velocity(velocity_, cores, kind_, smoke_, ground_, options_.moving_core));
   }
   // 2. Air and smoke are carried along.
   {
@@ -33,20 +33,21 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
     const AdvectionFrame<Dim> frame{grid_, ground_, carrier_, carrier_speed_, flow_area_};
     advection_.advect(velocity_, frame, dt, options_.scheme);
     let_in_ambient_air<Dim>(velocity_, carrier_, flow_area_, grid_, sides_, options_.wind, dt);
-    book(budget_.advection);
+    book_all(budget_.advection);
   }
+  const Vec<Dim> of_smoke = momentum_of_smoke<Dim>(smoke_, velocity_, ground_);
   move_smoke(dt, stages);
-  book(budget_.smoke);
+  book(budget_.smoke, momentum_of_smoke<Dim>(smoke_, velocity_, ground_) - of_smoke);
   // 3. Forces.
   if (options_.viscosity > 0) {
     const auto timed = stages.time("suspension.viscosity");
     diffusion_.diffuse_velocity(velocity_, smoke_, flow_area_, grid_, ground_, options_.viscosity, dt);
-    book(budget_.diffusion);
+    book_all(budget_.diffusion);
   }
   if (options_.confinement) {
     const auto timed = stages.time("suspension.confinement");
-    confinement_.apply(velocity_, flow_area_, grid_, *options_.confinement, dt);
-    book(budget_.confinement);
+    book(budget_.confinement,
+         confinement_.apply(velocity_, flow_area_, ground_, smoke_, grid_, *options_.confinement, dt));
   }
   // 4. Incompressibility.
   {
@@ -57,11 +58,12 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
     budget_.pressure = projection_.project(velocity_, density_, ground_.open(), kind_, dt, options_.pressure, heavy);
     budget_.core_pressure = core_boundary_.add_pressure(cores, projection_.pressure(), kind_, smoke_, ground_,
                                                         grid_.face_area(), dt, moving);
-    book(budget_.projection);
+    book_all(budget_.projection);
   }
   const auto timed = stages.time("suspension.extrapolation");
   ground_.extrapolate(velocity_);
   start_from_velocity();
+  momentum_ = last;
 }
 
 /// No air moves and none will.
@@ -73,6 +75,7 @@ bool Suspension<Dim>::at_rest(std::span<const CoreCell<Dim>> cores) const {
 /// Sets the kind of every cell, and what follows from it.
 template <int Dim>
 void Suspension<Dim>::classify(std::span<CoreCell<Dim>> cores) {
+  std::ranges::copy(kind_.values(), last_kind_.values().begin());
   for (std::size_t cell = 0; cell < kind_.size(); ++cell)
     kind_[cell] = ground_.volume()[cell] > 0 ? CellKind::open : CellKind::solid;
   for (const CoreCell<Dim>& core : cores)
@@ -86,7 +89,16 @@ void Suspension<Dim>::classify(std::span<CoreCell<Dim>> cores) {
     mark_pockets<Dim>(kind_, ground_.open(), sides_, components_);
   }
   kinds_are_old_ = !cores.empty();
-  update_active(0, grid_.cells[0]);
+  Span changed;
+  for (std::size_t r = 0; r < kind_.n_rows(); ++r) {
+    const auto now = kind_.row(r), last = last_kind_.row(r);
+    const auto first = std::ranges::mismatch(now, last).in1;
+    if (first == now.end()) continue;
+    auto end = static_cast<int>(now.size());
+    while (now[static_cast<std::size_t>(end) - 1] == last[static_cast<std::size_t>(end) - 1]) --end;
+    changed = joined(changed, {static_cast<int>(first - now.begin()), end});
+  }
+  if (!changed.empty()) update_active(changed.begin, changed.end);
 }
 
 /// Of the faces of the cell columns [begin, end).

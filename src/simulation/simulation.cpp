@@ -187,10 +187,8 @@ void Simulation<Dim>::entrain_cover() {
   masses_.n_entrained += taken.size();
   masses_.entrained += entrainment_->mass_taken();
   if (ground_) {
-    const auto [begin, end] = ground_->follow(*cover_, taken.position);
-    const Vec<Dim> before = suspension_->momentum();
-    suspension_->set_ground(ground_->node_distance(), begin, end);
-    report_.ground_on_air = suspension_->momentum() - before;
+    const std::span<const Span> moved = ground_->follow(*cover_, taken.position);
+    report_.ground_on_air = suspension_->set_ground(ground_->node_distance(), moved);
   }
 }
 

@@ -56,7 +56,7 @@ TEMPLATE_TEST_CASE_SIG("rows read in order and rows with look-ups agree", "[adve
   Field<Dim> distance(grid.nodes());
   for_each_index<Dim>(grid.nodes(),
                       [&](const Index<Dim>& i) { distance[i] = grid.node(i)[Dim - 1] - 0.55 + 0.2 * grid.node(i)[0]; });
-  ground.set(distance, 0, n);
+  ground.set(distance, std::array{Span{0, n}});
   const FaceField<Dim> carrier = face_velocity<Dim>(grid, [](const Vec<Dim>& x) {
     Vec<Dim> u;
     for (int k = 0; k < Dim; ++k) u[k] = std::sin(3 * x[(k + 1) % Dim] + k) * std::cos(5 * x[k]);

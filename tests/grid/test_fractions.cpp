@@ -59,7 +59,7 @@ TEMPLATE_TEST_CASE_SIG("an inclined plane leaves its exact volume and its faces 
   Vec<Dim> normal = Vec<Dim>::Constant(0.3);
   normal[up_axis<Dim>] = 1;
   Ground<Dim> ground(grid, 1.2);
-  ground.set(plane<Dim>(grid, Vec<Dim>::Constant(4), normal), 0, 8);
+  ground.set(plane<Dim>(grid, Vec<Dim>::Constant(4), normal), std::array{Span{0, 8}});
   double volume = 0;
   for (std::size_t c = 0; c < ground.volume().size(); ++c) volume += ground.volume()[c];
   CHECK(volume == Approx(0.5 * std::pow(8, Dim)).epsilon(0.02));  // by symmetry, but for the floor
@@ -76,7 +76,7 @@ TEMPLATE_TEST_CASE_SIG("closed cells hold no air, small cells are listed and flo
                        2, 3) {
   const MacGrid<Dim> grid = unit_grid<Dim>(4);
   Ground<Dim> ground(grid, 2);
-  ground.set(plane<Dim>(grid, 1.95 * up<Dim>(), up<Dim>()), 0, 4);
+  ground.set(plane<Dim>(grid, 1.95 * up<Dim>(), up<Dim>()), std::array{Span{0, 4}});
   std::size_t layer = count<Dim>(grid.cells) / 4;
   CHECK(ground.small_cells().size() == layer);
   CHECK(ground.volume()[std::size_t{0}] == 0);
@@ -96,9 +96,9 @@ TEMPLATE_TEST_CASE_SIG("a partial update gives the bits of a full one", "[fracti
     return d;
   };
   Ground<Dim> part(grid, 1.2), full(grid, 1.2);
-  part.set(wavy(0), 0, 12);
-  part.set(wavy(0.35), 4, 8);
-  full.set(wavy(0.35), 0, 12);
+  part.set(wavy(0), std::array{Span{0, 12}});
+  part.set(wavy(0.35), std::array{Span{4, 8}});
+  full.set(wavy(0.35), std::array{Span{0, 12}});
   for (int axis = 0; axis < Dim; ++axis) {
     for (std::size_t f = 0; f < full.open()[axis].size(); ++f) {
       REQUIRE(part.open()[axis][f] == full.open()[axis][f]);
@@ -123,7 +123,7 @@ TEMPLATE_TEST_CASE_SIG("a partial update gives the bits of a full one", "[fracti
 TEMPLATE_TEST_CASE_SIG("velocity goes on into the ground, and is 0 deep in it", "[fractions]", ((int Dim), Dim), 2, 3) {
   const MacGrid<Dim> grid = unit_grid<Dim>(8);
   Ground<Dim> ground(grid, 1.2);
-  ground.set(plane<Dim>(grid, 5.5 * up<Dim>(), up<Dim>()), 0, 8);
+  ground.set(plane<Dim>(grid, 5.5 * up<Dim>(), up<Dim>()), std::array{Span{0, 8}});
   FaceField<Dim> u = make_face_field<Dim>(grid, 7.0);
   for_each_index<Dim>(grid.faces(0), [&](const Index<Dim>& i) { u[0][i] = i[Dim - 1] >= 5 ? 3 : 99; });
   ground.extrapolate(u);
@@ -137,6 +137,6 @@ TEMPLATE_TEST_CASE_SIG("a distance that is not finite is refused and changes not
   Field<Dim> distance(grid.nodes(), -1);
   distance[std::size_t{7}] = GENERATE(std::numeric_limits<double>::quiet_NaN(), HUGE_VAL, -HUGE_VAL);
   Ground<Dim> ground(grid, 1.2);
-  CHECK_THROWS_AS(ground.set(distance, 0, 4), Error);
+  CHECK_THROWS_AS(ground.set(distance, std::array{Span{0, 4}}), Error);
   CHECK(ground.volume()[std::size_t{0}] == 1);
 }
