@@ -34,12 +34,14 @@ void classify_overlap(std::vector<std::uint8_t>& overlap, const DenseFlow<Dim>& 
     double n = 0;
     for (const std::uint32_t j : dense.neighbours().row(i).index)
       n += particles.volume[j] * number_density_kernel((x - particles.position[j]).norm(), h);
-    if (cover.present())
+    const auto full = [&] { return n / lattice_volume >= threshold; };
+    if (cover.present() && !full())
       cover.cells->for_each_near(x, [&](std::uint32_t c) {
         n += cover.particles->volume[c] * number_density_kernel((x - cover.particles->position[c]).norm(), h);
       });
-    n += dense.wall_kernel().number_density_share(walls, x) * dense.wall_kernel().number_density_integral();
-    overlap[i] = n / lattice_volume < threshold;
+    if (!full())
+      n += dense.wall_kernel().number_density_share(walls, x) * dense.wall_kernel().number_density_integral();
+    overlap[i] = !full();
   });
 }
 

@@ -79,19 +79,16 @@ Vec<Dim> momentum_of_smoke(double mass, const Index<Dim>& cell, const FaceField<
 /// The same of all smoke, in a fixed order.
 template <int Dim>
 Vec<Dim> momentum_of_smoke(const Field<Dim>& smoke, const FaceField<Dim>& u, const Ground<Dim>& ground) {
-  const auto has_smoke = [](double m) { return m != 0; };
   return parallel_reduce(
       smoke.n_rows(), Vec<Dim>(Vec<Dim>::Zero()),
       [&](std::size_t begin, std::size_t end) {
         Vec<Dim> sum = Vec<Dim>::Zero();
         for (std::size_t r = begin; r < end; ++r) {
           const auto row = smoke.row(r);
-          const auto first = std::find_if(row.begin(), row.end(), has_smoke);
+          const Span span = nonzero_span(row);
           Index<Dim> cell = smoke.row_start(r);
-          for (auto i = static_cast<std::size_t>(first - row.begin()); i < row.size(); ++i) {
-            cell[0] = static_cast<int>(i);
-            if (row[i] != 0) sum += momentum_of_smoke<Dim>(row[i], cell, u, ground);
-          }
+          for (cell[0] = span.begin; cell[0] < span.end; ++cell[0])
+            sum += momentum_of_smoke<Dim>(row[static_cast<std::size_t>(cell[0])], cell, u, ground);
         }
         return sum;
       },

@@ -2,28 +2,15 @@
 /// The bed in the grid: which part of each face and cell is open (R21: a cut-cell wall, not a staircase), and velocity
 /// carried on into it, so that whatever interpolates near the wall sees a free-slip wall.
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "grid/mac_grid.hpp"
+#include "grid/span.hpp"
 
 namespace spindrift {
-
-/// Consecutive points [begin, end) of a row.
-struct Span {
-  int begin = 0, end = 0;
-  bool empty() const { return end <= begin; }
-};
-
-/// The smallest span that holds both.
-inline Span joined(Span a, Span b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
-}
 
 template <int Dim>
 class Ground {

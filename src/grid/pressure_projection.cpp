@@ -126,10 +126,14 @@ void PressureProjection<Dim>::set_first_guess(const Field<Dim, CellKind>& kind, 
     const auto p = std::as_const(pressure_).row(start);
     const auto kinds = kind.row(start);
     double* even = solver_.solution.data() + layout.row(start);
-    const int end = std::min(2 * span.end, layout.cells[0]);
-    for (int i = 2 * span.begin; i < end; ++i) {
-      even[(i & 1) * layout.pitch + i / 2] = kinds[i] == CellKind::open ? p[i] * to_potential : 0;
+    double* odd = even + layout.pitch;
+    const auto value = [&](int i) { return kinds[i] == CellKind::open ? p[i] * to_potential : 0; };
+    const int pairs = std::min(span.end, layout.cells[0] / 2);
+    for (int m = span.begin; m < pairs; ++m) {
+      even[m] = value(2 * m);
+      odd[m] = value(2 * m + 1);
     }
+    for (int m = std::max(pairs, span.begin); m < span.end; ++m) even[m] = value(2 * m);
   });
 }
 
@@ -141,12 +145,16 @@ void PressureProjection<Dim>::set_pressure(const Field<Dim, CellKind>& kind, dou
     const auto p = pressure_.row(start);
     const auto kinds = kind.row(start);
     const double* even = solver_.solution.data() + layout.row(start);
+    const double* odd = even + layout.pitch;
     const int begin = 2 * span.begin, end = std::max(begin, std::min(2 * span.end, layout.cells[0]));
     std::fill(p.begin(), p.begin() + begin, 0.0);
     std::fill(p.begin() + end, p.end(), 0.0);
-    for (int i = begin; i < end; ++i) {
-      p[i] = kinds[i] == CellKind::open ? even[(i & 1) * layout.pitch + i / 2] * to_pressure : 0;
+    const auto value = [&](int i, double phi) { return kinds[i] == CellKind::open ? phi * to_pressure : 0; };
+    for (int i = begin; i + 1 < end; i += 2) {
+      p[i] = value(i, even[i / 2]);
+      p[i + 1] = value(i + 1, odd[i / 2]);
     }
+    if (end % 2 == 1) p[end - 1] = value(end - 1, even[end / 2]);
   });
 }
 
@@ -159,18 +167,26 @@ void PressureProjection<Dim>::correct(FaceField<Dim>& u, const FaceField<Dim>& o
       double* v = u[axis].row(start).data();
       const double* fraction = open[axis].row(start).data();
       const RowSpan span = poisson_.face_span(axis, start);
+      struct Parity {
+        const double *c, *phi, *phi_below;
+      };
+      std::array<Parity, 2> of;
       for (int parity = 0; parity < 2; ++parity) {
         const std::ptrdiff_t own = layout.own(start, parity);
         const std::ptrdiff_t below = axis > 0 ? own - layout.stride[axis] : layout.left(start, parity);
-        const double* c = poisson_.conductance[axis].data() + own;
-        const double* phi = solver_.solution.data() + own;
-        const double* phi_below = solver_.solution.data() + below;
-        const int end = std::min(span.end, (u[axis].shape()[0] + 1 - parity) / 2);
-        for (int m = span.begin; m < end; ++m) {
-          const int i = 2 * m + parity;
-          v[i] -= c[m] > 0 ? c[m] / fraction[i] * (phi[m] - phi_below[m]) : 0;
-        }
+        of[static_cast<std::size_t>(parity)] = {poisson_.conductance[axis].data() + own, solver_.solution.data() + own,
+                                                solver_.solution.data() + below};
       }
+      const auto push = [&](const Parity& p, int m, int i) {
+        v[i] -= p.c[m] / (p.c[m] > 0 ? fraction[i] : 1.0) * (p.phi[m] - p.phi_below[m]);
+      };
+      const int n_faces = u[axis].shape()[0], pairs = std::min(span.end, n_faces / 2);
+      for (int m = span.begin; m < pairs; ++m) {
+        push(of[0], m, 2 * m);
+        push(of[1], m, 2 * m + 1);
+      }
+      if (n_faces % 2 == 1 && span.begin <= n_faces / 2 && n_faces / 2 < span.end)
+        push(of[0], n_faces / 2, n_faces - 1);
     });
   }
 }

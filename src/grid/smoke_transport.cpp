@@ -74,16 +74,10 @@ SmokeFlow SmokeTransport<Dim>::advance(Field<Dim>& smoke, const FaceField<Dim>& 
 
 template <int Dim>
 bool SmokeTransport<Dim>::find_spans(const Field<Dim>& smoke) {
-  const auto has_smoke = [](double m) { return m != 0; };
   bool any = false;
   for (std::size_t r = 0; r < spans_.size(); ++r) {
-    const auto row = smoke.row(r);
-    const auto first = std::find_if(row.begin(), row.end(), has_smoke);
-    spans_[r] = {};
-    if (first == row.end()) continue;
-    const auto last = std::find_if(row.rbegin(), row.rend(), has_smoke);
-    spans_[r] = {static_cast<int>(first - row.begin()), static_cast<int>(row.rend() - last)};
-    any = true;
+    spans_[r] = nonzero_span(smoke.row(r));
+    any = any || !spans_[r].empty();
   }
   return any;
 }
@@ -138,15 +132,28 @@ double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>&
   });
 }
 
+/// A sweep along each axis widens the spans by one and reads two cells beyond.
+template <int Dim>
+void SmokeTransport<Dim>::find_surroundings() {
+  around_ = spans_;
+  spans_.swap(around_);
+  for (int step = 0; step < 3; ++step)
+    for (int axis = 0; axis < Dim; ++axis) widen_spans(axis);
+  spans_.swap(around_);
+}
+
 template <int Dim>
 void SmokeTransport<Dim>::start_substep(const Field<Dim>& smoke) {
+  find_surroundings();
   parallel_for(
       spans_.size(),
       [&](std::size_t r) {
-        std::ranges::copy(volume_.row(r), swept_volume_.row(r).begin());
+        const auto [begin, end] = around_[r];
+        if (begin >= end) return;
+        std::copy(volume_.row(r).begin() + begin, volume_.row(r).begin() + end, swept_volume_.row(r).begin() + begin);
         const double *mass = smoke.row(r).data(), *volume = volume_.row(r).data();
         double* density = density_.row(r).data();
-        std::ranges::fill(density_.row(r), 0.0);
+        std::fill(density + begin, density + end, 0.0);
         for_each_pack(spans_[r].begin, spans_[r].end, [&]<class T>(int i) {
           const T v = load<T>(volume + i);
           store<T>(density + i, v > 0 ? load<T>(mass + i) / (v + smallest_divisor) : T{});
@@ -277,7 +284,7 @@ template <int Dim>
 std::size_t SmokeTransport<Dim>::bytes() const {
   std::size_t n = volume_.bytes() + swept_volume_.bytes() + density_.bytes() + outflow_.bytes();
   for (const auto& f : flux_) n += f.bytes();
-  return n + spindrift::bytes(spans_, before_) + small_cells_.bytes();
+  return n + spindrift::bytes(spans_, before_, around_) + small_cells_.bytes();
 }
 
 template class SmokeTransport<2>;

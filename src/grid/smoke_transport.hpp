@@ -51,6 +51,7 @@ class SmokeTransport {
 
   bool find_spans(const Field<Dim>& smoke);
   void widen_spans(int axis);
+  void find_surroundings();
   double largest_outflow(const Flow& flow, const Ground<Dim>& ground);
   void start_substep(const Field<Dim>& smoke);
   void set_flux(int axis, const Flow& flow);
@@ -62,6 +63,7 @@ class SmokeTransport {
   std::array<std::array<Side, 2>, Dim> sides_;
   SmallCells<Dim> small_cells_;
   std::vector<Span> spans_, before_;  ///< cells of each row that may hold smoke; before the last widening
+  std::vector<Span> around_;          ///< all that a substep reads
   Field<Dim> volume_;                 ///< of a cell in this step, with what is lent [m^Dim]
   Field<Dim> swept_volume_;           ///< after the sweeps so far
   Field<Dim> density_;                ///< smoke / swept volume

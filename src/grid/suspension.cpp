@@ -182,20 +182,47 @@ Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
   if (options_.gravity.isZero() || std::ranges::none_of(smoke_.values(), [](double m) { return m != 0; }))
     return change;
   disturbed_ = true;
-  set_density();
-  const double* density = density_.values().data();
+  smoke_span_.resize(smoke_.n_rows());
+  for (std::size_t r = 0; r < smoke_.n_rows(); ++r) smoke_span_[r] = nonzero_span(smoke_.row(r));
+  const double air = options_.air_density;
+  const auto density = [&](const Index<Dim>& cell) {
+    const double volume = ground_.volume()[cell];
+    return volume > 0 ? air + smoke_[cell] / volume : air;
+  };
   for (int axis = 0; axis < Dim; ++axis) {
     if (options_.gravity[axis] == 0) continue;
-    double* u = velocity_[axis].values().data();
-    const double* area = flow_area_[axis].values().data();
-    const double push = dt * options_.gravity[axis], air = options_.air_density;
-    change[axis] =
-        sum_over_faces<Dim>(axis, ground_, smoke_, [=]<class T>(std::size_t face, std::size_t low, std::size_t high) {
-          const T total = 0.5 * (load<T>(density + low) + load<T>(density + high));
-          const T du = load<T>(area + face) > 0 ? push * (total - air) / total : T{};
-          store<T>(u + face, load<T>(u + face) + du);
-          return du;
-        });
+    Field<Dim>& u = velocity_[axis];
+    const int n = grid_.cells[axis];
+    const auto pull = [&](std::size_t r) {
+      const Index<Dim> start = u.row_start(r);
+      const auto span_of = [&](const Index<Dim>& row) {
+        return smoke_span_[flat<Dim>(row, grid_.cells) / static_cast<std::size_t>(grid_.cells[0])];
+      };
+      Span span;
+      if (start[axis] < n) span = span_of(start);
+      if (axis == 0 && !span.empty()) ++span.end;
+      if (axis != 0 && start[axis] > 0) span = joined(span, span_of(shifted<Dim>(start, axis, -1)));
+      double gained = 0;
+      Index<Dim> face = start;
+      for (face[0] = span.begin; face[0] < span.end; ++face[0]) {
+        if (!(flow_area_[axis][face] > 0)) continue;
+        const Index<Dim> below = face[axis] > 0 ? shifted<Dim>(face, axis, -1) : face;
+        const Index<Dim> above = face[axis] < n ? face : below;
+        const double total = 0.5 * (density(below) + density(above));
+        const double du = dt * options_.gravity[axis] * (total - air) / total;
+        u[face] += du;
+        gained += (ground_.air_mass()[axis][face] + smoke_of_face<Dim>(smoke_, axis, face)) * du;
+      }
+      return gained;
+    };
+    change[axis] = parallel_reduce(
+        u.n_rows(), 0.0,
+        [&](std::size_t begin, std::size_t end) {
+          double sum = 0;
+          for (std::size_t r = begin; r < end; ++r) sum += pull(r);
+          return sum;
+        },
+        [](double a, double b) { return a + b; }, u.rows_per_task());
   }
   if (momentum_) *momentum_ += change;
   return change;
@@ -229,7 +256,7 @@ std::size_t Suspension<Dim>::bytes() const {
   std::size_t n = smoke_.bytes() + kind_.bytes() + last_kind_.bytes() + density_.bytes() + projection_.bytes() +
                   ground_.bytes() + advection_.bytes() + smoke_transport_.bytes() + diffusion_.bytes() +
                   confinement_.bytes() + core_boundary_.bytes() + components_.bytes() +
-                  spindrift::bytes(face_momentum_);
+                  spindrift::bytes(face_momentum_) + spindrift::bytes(smoke_span_);
   for (std::size_t axis = 0; axis < Dim; ++axis)
     n += velocity_[axis].bytes() + carrier_[axis].bytes() + active_[axis].bytes() + flow_area_[axis].bytes() +
          spindrift::bytes(carrier_speed_[axis]);

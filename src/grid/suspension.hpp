@@ -147,6 +147,7 @@ class Suspension {
   Components<Dim> components_;
   Field<Dim> density_;                 ///< air and smoke [kg m^-3], scratch of the projection
   std::vector<double> face_momentum_;  ///< scratch of apply()
+  std::vector<Span> smoke_span_;       ///< of each row of cells, scratch
   SuspensionBudget<Dim> budget_;
 };
 
