@@ -31,43 +31,42 @@ ConjugateGradient<Dim>::ConjugateGradient(const ParityLayout<Dim>& layout)
       image_(layout.size, 0.0),
       multigrid_(layout.cells) {}
 
+/// Makes the right side b - A x, or x zero; returns its norm squared.
 template <int Dim>
-void ConjugateGradient<Dim>::subtract_guess(const PoissonOperator<Dim>& poisson, double b_norm2) {
-  double* x = solution.data();
-  double* r = right_side.data();
-  double* q = image_.data();
-  poisson.apply(image_, solution);
-  const double r_norm2 = sum_over_cells(poisson, [=](std::ptrdiff_t n) { return (r[n] - q[n]) * (r[n] - q[n]); });
-  const bool better = r_norm2 < b_norm2;
-  sum_over_cells(poisson, [=](std::ptrdiff_t n) {
-    r[n] -= better ? q[n] : 0;
-    x[n] = better ? x[n] : 0;
-    return 0.0;
-  });
+double ConjugateGradient<Dim>::take_guess(const PoissonOperator<Dim>& poisson, double b_norm2) {
+  poisson.clear_closed(solution);
+  const double r_norm2 = poisson.residual(image_, solution, right_side);
+  if (r_norm2 < b_norm2) {
+    right_side.swap(image_);
+    return r_norm2;
+  }
+  std::fill(solution.begin(), solution.end(), 0.0);
+  return b_norm2;
 }
 
 template <int Dim>
 typename ConjugateGradient<Dim>::Result ConjugateGradient<Dim>::solve(const PoissonOperator<Dim>& poisson,
                                                                       double tolerance, int max_iterations) {
+  const double* b = right_side.data();
+  const double b_norm2 = sum_over_cells(poisson, [=](std::ptrdiff_t n) { return b[n] * b[n]; });
+  if (b_norm2 == 0 || !std::isfinite(b_norm2)) {
+    std::fill(solution.begin(), solution.end(), 0.0);
+    return {0, b_norm2, b_norm2 == 0};
+  }
+  double r_norm2 = take_guess(poisson, b_norm2);
   double* x = solution.data();
   double* r = right_side.data();
   double* d = direction_.data();
   double* q = image_.data();
-  const double b_norm2 = sum_over_cells(poisson, [=](std::ptrdiff_t n) { return r[n] * r[n]; });
-  if (b_norm2 == 0 || !std::isfinite(b_norm2)) {
-    sum_over_cells(poisson, [=](std::ptrdiff_t n) { return x[n] = 0; });
-    return {0, b_norm2, b_norm2 == 0};
-  }
-  subtract_guess(poisson, b_norm2);
   multigrid_.build(poisson);
   float* source = multigrid_.right_side().data();
   const float* z = multigrid_.solution().data();
 
   // The cycle works in single precision: its input is scaled to |b|, so that nothing under- or overflows.
   double scale = 1 / std::sqrt(b_norm2);
-  double r_norm2 = sum_over_cells(poisson, [=](std::ptrdiff_t n) {
+  sum_over_cells(poisson, [=](std::ptrdiff_t n) {
     source[n] = static_cast<float>(scale * r[n]);
-    return r[n] * r[n];
+    return 0.0;
   });
   Result result;
   double rz_before = 0;

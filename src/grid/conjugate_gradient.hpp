@@ -20,9 +20,9 @@ class ConjugateGradient {
 
   explicit ConjugateGradient(const ParityLayout<Dim>& layout);
 
-  /// Solves A x = b. `solution` holds the first guess and, after, x; `right_side` holds b and, after, the residual.
-  /// A guess that is no better than zero is dropped. b must be zero where a cell is not open, and sum to zero over each
-  /// component without an open side.
+  /// Solves A x = b. `solution` holds the first guess and, after, x, 0 where a cell is not open; `right_side` holds b
+  /// and, after, the residual. A guess that is no better than zero is dropped. b must be zero where a cell is not open,
+  /// and sum to zero over each component without an open side.
   Result solve(const PoissonOperator<Dim>& poisson, double tolerance, int max_iterations);
 
   /// Forgets values that are not finite, which a failed solve may have left where the next one reads.
@@ -32,7 +32,7 @@ class ConjugateGradient {
   std::size_t bytes() const { return spindrift::bytes(solution, right_side, direction_, image_) + multigrid_.bytes(); }
 
  private:
-  void subtract_guess(const PoissonOperator<Dim>& poisson, double b_norm2);
+  double take_guess(const PoissonOperator<Dim>& poisson, double b_norm2);
 
   std::vector<double> direction_, image_;
   Multigrid<Dim> multigrid_;

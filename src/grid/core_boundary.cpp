@@ -121,7 +121,7 @@ std::span<const HeavyCell<Dim>> CoreBoundary<Dim>::heavy_cells(std::span<const C
 }
 
 template <int Dim>
-Vec<Dim> CoreBoundary<Dim>::add_pressure(std::span<CoreCell<Dim>> cores, const Field<Dim>& pressure,
+Vec<Dim> CoreBoundary<Dim>::add_pressure(std::span<CoreCell<Dim>> cores, const PressureProjection<Dim>& projection,
                                          const Field<Dim, CellKind>& kind, const Field<Dim>& smoke,
                                          const Ground<Dim>& ground, double face_area, double dt, bool moving) const {
   Vec<Dim> total = Vec<Dim>::Zero();
@@ -130,7 +130,7 @@ Vec<Dim> CoreBoundary<Dim>::add_pressure(std::span<CoreCell<Dim>> cores, const F
     for_each_neighbour<Dim>(
         core.cell, kind.shape(), [&](int axis, const Index<Dim>& face, const Index<Dim>& other, int side) {
           if (kind[other] != CellKind::open) return;
-          const double push = pressure[other] * face_area * ground.open()[axis][face] * dt;
+          const double push = projection.pressure(other) * face_area * ground.open()[axis][face] * dt;
           const double face_mass = ground.air_mass()[axis][face] + smoke_of_face<Dim>(smoke, axis, face);
           const double on_core = moving ? push - face_mass * push / core.mass : push;
           core.impulse[axis] += side == 0 ? on_core : -on_core;

@@ -5,7 +5,7 @@
 
 #include "grid/cell_kind.hpp"
 #include "grid/ground.hpp"
-#include "grid/poisson_operator.hpp"
+#include "grid/pressure_projection.hpp"
 #include "terrain/walls.hpp"
 
 namespace spindrift {
@@ -44,9 +44,9 @@ class CoreBoundary {
 
   /// CoreCell::impulse += p A dt of the open cells next to it, into the core, less what the air on its yielding faces
   /// takes of it. Returns the sum [kg m/s].
-  Vec<Dim> add_pressure(std::span<CoreCell<Dim>> cores, const Field<Dim>& pressure, const Field<Dim, CellKind>& kind,
-                        const Field<Dim>& smoke, const Ground<Dim>& ground, double face_area, double dt,
-                        bool moving) const;
+  Vec<Dim> add_pressure(std::span<CoreCell<Dim>> cores, const PressureProjection<Dim>& projection,
+                        const Field<Dim, CellKind>& kind, const Field<Dim>& smoke, const Ground<Dim>& ground,
+                        double face_area, double dt, bool moving) const;
 
   std::size_t bytes() const { return core_number_.bytes() + spindrift::bytes(common_) + spindrift::bytes(heavy_); }
 

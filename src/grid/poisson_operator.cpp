@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/parallel.hpp"
+
 namespace spindrift {
 
 namespace {
@@ -116,9 +118,11 @@ RowSpan PoissonOperator<Dim>::face_span(int axis, const Index<Dim>& start) const
   return start[axis] > 0 ? united(above, spans[layout.row_number(shifted<Dim>(start, axis, -1))]) : above;
 }
 
+/// The sum of f(place, what the conductances alone make of A x) over the cells in the spans, in a fixed order.
 template <int Dim>
-double PoissonOperator<Dim>::apply(std::vector<double>& y, const std::vector<double>& x) const {
-  const double product = layout.sum_over_rows([&](std::size_t number, const Index<Dim>& start) {
+template <class F>
+double PoissonOperator<Dim>::sum_over_products(const std::vector<double>& x, F&& f) const {
+  return layout.sum_over_rows([&](std::size_t number, const Index<Dim>& start) {
     double sum = 0;
     for (int parity = 0; parity < 2; ++parity) {
       const RowSpan span = layout.in_parity(spans[number], parity);
@@ -128,7 +132,6 @@ double PoissonOperator<Dim>::apply(std::vector<double>& y, const std::vector<dou
       const double* xr = x.data() + right;
       const double* cl = conductance[0].data() + own;
       const double* cr = conductance[0].data() + right;
-      double* out = y.data() + own;
       sum += lane_sum(span.begin, span.end, [&](int m) {
         double value = cl[m] * (xc[m] - xl[m]) + cr[m] * (xc[m] - xr[m]);
         for (int k = 1; k < Dim; ++k) {
@@ -136,19 +139,55 @@ double PoissonOperator<Dim>::apply(std::vector<double>& y, const std::vector<dou
           const double* c = conductance[k].data() + own;
           value += c[m] * (xc[m] - xc[m - s]) + c[m + s] * (xc[m] - xc[m + s]);
         }
-        out[m] = value;
-        return xc[m] * value;
+        return f(own + m, value);
       });
     }
     return sum;
   });
-  double yielded = 0;
+}
+
+template <int Dim>
+double PoissonOperator<Dim>::apply(std::vector<double>& y, const std::vector<double>& x) const {
+  double* out = y.data();
+  const double* in = x.data();
+  double product = sum_over_products(x, [=](std::ptrdiff_t n, double value) {
+    out[n] = value;
+    return in[n] * value;
+  });
   for (const YieldTerm<Dim>& term : yields) {
-    const auto n = static_cast<std::size_t>(term.place);
-    y[n] += term.value * x[n];
-    yielded += term.value * x[n] * x[n];
+    out[term.place] += term.value * in[term.place];
+    product += term.value * in[term.place] * in[term.place];
   }
-  return product + yielded;
+  return product;
+}
+
+template <int Dim>
+double PoissonOperator<Dim>::residual(std::vector<double>& y, const std::vector<double>& x,
+                                      const std::vector<double>& b) const {
+  double* out = y.data();
+  const double* right = b.data();
+  double norm2 = sum_over_products(x, [=](std::ptrdiff_t n, double value) {
+    out[n] = right[n] - value;
+    return out[n] * out[n];
+  });
+  for (const YieldTerm<Dim>& term : yields) {
+    double& r = out[term.place];
+    norm2 -= r * r;
+    r -= term.value * x[static_cast<std::size_t>(term.place)];
+    norm2 += r * r;
+  }
+  return norm2;
+}
+
+template <int Dim>
+bool PoissonOperator<Dim>::is_open(std::ptrdiff_t place) const {
+  return resistance_[static_cast<std::size_t>(place)] < closed;
+}
+
+template <int Dim>
+void PoissonOperator<Dim>::clear_closed(std::vector<double>& x) const {
+  parallel_for(
+      layout.size, [&](std::size_t n) { x[n] = resistance_[n] < closed ? x[n] : 0; }, 8192);
 }
 
 template <int Dim>

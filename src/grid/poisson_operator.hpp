@@ -51,12 +51,21 @@ struct PoissonOperator {
   /// y = A x; returns x . y.
   double apply(std::vector<double>& y, const std::vector<double>& x) const;
 
+  /// y = b - A x; returns y . y.
+  double residual(std::vector<double>& y, const std::vector<double>& x, const std::vector<double>& b) const;
+  /// Whether the cell at a place of the layout was open at the last build().
+  bool is_open(std::ptrdiff_t place) const;
+  /// x = 0 where a cell is not open.
+  void clear_closed(std::vector<double>& x) const;
+
   /// The half columns of a row of faces normal to `axis` that may conduct.
   RowSpan face_span(int axis, const Index<Dim>& start) const;
 
   std::size_t bytes() const;
 
  private:
+  template <class F>
+  double sum_over_products(const std::vector<double>& x, F&& f) const;
   void find_yields(const FaceField<Dim>& open, const Field<Dim, CellKind>& kind, std::span<const HeavyCell<Dim>> heavy,
                    double cell_volume);
 

@@ -9,7 +9,7 @@ namespace spindrift {
 
 template <int Dim>
 PressureProjection<Dim>::PressureProjection(const MacGrid<Dim>& grid, const Sides& sides)
-    : sides_(sides), dx_(grid.dx), pressure_(grid.cells, 0.0), poisson_(grid.cells, sides), solver_(poisson_.layout) {}
+    : sides_(sides), dx_(grid.dx), poisson_(grid.cells, sides), solver_(poisson_.layout) {}
 
 template <int Dim>
 ProjectionResult PressureProjection<Dim>::project(FaceField<Dim>& u, const Field<Dim>& density,
@@ -17,15 +17,13 @@ ProjectionResult PressureProjection<Dim>::project(FaceField<Dim>& u, const Field
                                                   double dt, const ProjectionOptions& options,
                                                   std::span<const HeavyCell<Dim>> heavy) {
   SPINDRIFT_CHECK(dt > 0);
-  SPINDRIFT_CHECK(kind.shape() == pressure_.shape() && density.shape() == pressure_.shape());
-  const double to_potential = dt / dx_;
+  SPINDRIFT_CHECK(kind.shape() == poisson_.layout.cells && density.shape() == poisson_.layout.cells);
   poisson_.build(density, open, kind, heavy, std::pow(dx_, Dim));
   components_.find(kind, open, sides_);
   anchor_closed_components();
-  set_right_side(u, open, kind);
+  set_right_side(u, open, kind, dt);
   ProjectionResult result;
-  result.unmatched_flux = subtract_closed_means(solver_.right_side);
-  set_first_guess(kind, to_potential);
+  result.unmatched_flux = subtract_closed_means(solver_.right_side) * dt / dx_;
   const auto solved = solver_.solve(poisson_, options.tolerance, options.max_iterations);
   result.iterations = solved.iterations;
   result.residual = solved.residual;
@@ -35,18 +33,18 @@ ProjectionResult PressureProjection<Dim>::project(FaceField<Dim>& u, const Field
     return result;
   }
   subtract_closed_means(solver_.solution);
-  set_pressure(kind, 1 / to_potential);
   if (solved.iterations > 0 || solved.residual > 0) {
-    correct(u, open);
-    yield(u, open, kind, heavy);
+    correct(u, open, dt);
+    yield(u, open, kind, heavy, dt);
   }
   return result;
 }
 
-/// b_c = - sum_f open_f u_f . n, zero where a cell is not open.
+/// b_c = - dx / dt sum_f open_f u_f . n, zero where a cell is not open.
 template <int Dim>
 void PressureProjection<Dim>::set_right_side(const FaceField<Dim>& u, const FaceField<Dim>& open,
-                                             const Field<Dim, CellKind>& kind) {
+                                             const Field<Dim, CellKind>& kind, double dt) {
+  const double scale = dx_ / dt;
   const ParityLayout<Dim>& layout = poisson_.layout;
   layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
     const RowSpan span = poisson_.spans[number];
@@ -63,7 +61,7 @@ void PressureProjection<Dim>::set_right_side(const FaceField<Dim>& u, const Face
     const auto inflow = [&](int i) {
       double sum = 0;
       for (int k = 0; k < Dim; ++k) sum += lower_open[k][i] * lower_u[k][i] - upper_open[k][i] * upper_u[k][i];
-      return kinds[i] == CellKind::open ? sum : 0.0;
+      return kinds[i] == CellKind::open ? scale * sum : 0.0;
     };
     double* even = solver_.right_side.data() + layout.row(start);
     double* odd = even + layout.pitch;
@@ -118,49 +116,10 @@ double PressureProjection<Dim>::subtract_closed_means(std::vector<double>& value
   return largest;
 }
 
+/// u_f -= dt / dx (p_upper - p_lower) / rho_f on the faces that conduct.
 template <int Dim>
-void PressureProjection<Dim>::set_first_guess(const Field<Dim, CellKind>& kind, double to_potential) {
-  const ParityLayout<Dim>& layout = poisson_.layout;
-  layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
-    const RowSpan span = poisson_.spans[number];
-    const auto p = std::as_const(pressure_).row(start);
-    const auto kinds = kind.row(start);
-    double* even = solver_.solution.data() + layout.row(start);
-    double* odd = even + layout.pitch;
-    const auto value = [&](int i) { return kinds[i] == CellKind::open ? p[i] * to_potential : 0; };
-    const int pairs = std::min(span.end, layout.cells[0] / 2);
-    for (int m = span.begin; m < pairs; ++m) {
-      even[m] = value(2 * m);
-      odd[m] = value(2 * m + 1);
-    }
-    for (int m = std::max(pairs, span.begin); m < span.end; ++m) even[m] = value(2 * m);
-  });
-}
-
-template <int Dim>
-void PressureProjection<Dim>::set_pressure(const Field<Dim, CellKind>& kind, double to_pressure) {
-  const ParityLayout<Dim>& layout = poisson_.layout;
-  layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
-    const RowSpan span = poisson_.spans[number];
-    const auto p = pressure_.row(start);
-    const auto kinds = kind.row(start);
-    const double* even = solver_.solution.data() + layout.row(start);
-    const double* odd = even + layout.pitch;
-    const int begin = 2 * span.begin, end = std::max(begin, std::min(2 * span.end, layout.cells[0]));
-    std::fill(p.begin(), p.begin() + begin, 0.0);
-    std::fill(p.begin() + end, p.end(), 0.0);
-    const auto value = [&](int i, double phi) { return kinds[i] == CellKind::open ? phi * to_pressure : 0; };
-    for (int i = begin; i + 1 < end; i += 2) {
-      p[i] = value(i, even[i / 2]);
-      p[i + 1] = value(i + 1, odd[i / 2]);
-    }
-    if (end % 2 == 1) p[end - 1] = value(end - 1, even[end / 2]);
-  });
-}
-
-/// u_f -= (phi_upper - phi_lower) / rho_f on the faces that conduct.
-template <int Dim>
-void PressureProjection<Dim>::correct(FaceField<Dim>& u, const FaceField<Dim>& open) const {
+void PressureProjection<Dim>::correct(FaceField<Dim>& u, const FaceField<Dim>& open, double dt) const {
+  const double scale = dt / dx_;
   const ParityLayout<Dim>& layout = poisson_.layout;
   for (int axis = 0; axis < Dim; ++axis) {
     face_rows<Dim>(layout.cells, axis).for_each_row([&](std::size_t, const Index<Dim>& start) {
@@ -168,7 +127,7 @@ void PressureProjection<Dim>::correct(FaceField<Dim>& u, const FaceField<Dim>& o
       const double* fraction = open[axis].row(start).data();
       const RowSpan span = poisson_.face_span(axis, start);
       struct Parity {
-        const double *c, *phi, *phi_below;
+        const double *c, *p, *p_below;
       };
       std::array<Parity, 2> of;
       for (int parity = 0; parity < 2; ++parity) {
@@ -177,8 +136,8 @@ void PressureProjection<Dim>::correct(FaceField<Dim>& u, const FaceField<Dim>& o
         of[static_cast<std::size_t>(parity)] = {poisson_.conductance[axis].data() + own, solver_.solution.data() + own,
                                                 solver_.solution.data() + below};
       }
-      const auto push = [&](const Parity& p, int m, int i) {
-        v[i] -= p.c[m] / (p.c[m] > 0 ? fraction[i] : 1.0) * (p.phi[m] - p.phi_below[m]);
+      const auto push = [&](const Parity& at, int m, int i) {
+        v[i] -= scale * at.c[m] / (at.c[m] > 0 ? fraction[i] : 1.0) * (at.p[m] - at.p_below[m]);
       };
       const int n_faces = u[axis].shape()[0], pairs = std::min(span.end, n_faces / 2);
       for (int m = span.begin; m < pairs; ++m) {
@@ -193,20 +152,40 @@ void PressureProjection<Dim>::correct(FaceField<Dim>& u, const FaceField<Dim>& o
 
 template <int Dim>
 void PressureProjection<Dim>::yield(FaceField<Dim>& u, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
-                                    std::span<const HeavyCell<Dim>> heavy) const {
+                                    std::span<const HeavyCell<Dim>> heavy, double dt) const {
   const double cell_volume = std::pow(dx_, Dim);
   for (const HeavyCell<Dim>& core : heavy) {
     for_each_open_neighbour<Dim>(
         core.cell, open, kind, [&](int axis, const Index<Dim>& face, const Index<Dim>& cell, int sign) {
-          const double phi = solver_.solution[static_cast<std::size_t>(poisson_.layout.at(cell))];
-          u[axis][face] -= sign * phi * open[axis][face] * cell_volume / core.mass;
+          u[axis][face] -= sign * dt / dx_ * pressure(cell) * open[axis][face] * cell_volume / core.mass;
         });
   }
 }
 
 template <int Dim>
+double PressureProjection<Dim>::pressure(const Index<Dim>& cell) const {
+  const std::ptrdiff_t place = poisson_.layout.at(cell);
+  return poisson_.is_open(place) ? solver_.solution[static_cast<std::size_t>(place)] : 0;
+}
+
+template <int Dim>
+void PressureProjection<Dim>::set_pressure(const Field<Dim>& pressure) {
+  SPINDRIFT_CHECK(pressure.shape() == poisson_.layout.cells);
+  for_each_index<Dim>(pressure.shape(), [&](const Index<Dim>& cell) {
+    solver_.solution[static_cast<std::size_t>(poisson_.layout.at(cell))] = pressure[cell];
+  });
+}
+
+template <int Dim>
+Field<Dim> PressureProjection<Dim>::pressure() const {
+  Field<Dim> field(poisson_.layout.cells);
+  for_each_index<Dim>(field.shape(), [&](const Index<Dim>& cell) { field[cell] = pressure(cell); });
+  return field;
+}
+
+template <int Dim>
 std::size_t PressureProjection<Dim>::bytes() const {
-  return pressure_.bytes() + components_.bytes() + poisson_.bytes() + solver_.bytes() + spindrift::bytes(mean_);
+  return components_.bytes() + poisson_.bytes() + solver_.bytes() + spindrift::bytes(mean_);
 }
 
 template class PressureProjection<2>;

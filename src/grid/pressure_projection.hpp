@@ -11,7 +11,7 @@
 namespace spindrift {
 
 struct ProjectionOptions {
-  double tolerance = 1e-4;  ///< on the relative residual |r|_2 / |b|_2
+  double tolerance = 1e-3;  ///< on the relative residual |r|_2 / |b|_2
   int max_iterations = 200;
 };
 
@@ -54,28 +54,27 @@ class PressureProjection {
                            const Field<Dim, CellKind>& kind, double dt, const ProjectionOptions& options = {},
                            std::span<const HeavyCell<Dim>> heavy = {});
 
-  /// [Pa]; the first guess of the next solve where it is better than none: state, to be stored in checkpoints.
-  const Field<Dim>& pressure() const { return pressure_; }
-  Field<Dim>& pressure() { return pressure_; }
+  /// Of the last project() [Pa]; 0 in cells that are not open. The first guess of the next solve where it is better
+  /// than none: state, to be stored in checkpoints.
+  double pressure(const Index<Dim>& cell) const;
+  Field<Dim> pressure() const;
+  void set_pressure(const Field<Dim>& pressure);
   std::size_t bytes() const;
 
  private:
-  void set_right_side(const FaceField<Dim>& u, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind);
+  void set_right_side(const FaceField<Dim>& u, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind, double dt);
   double subtract_closed_means(std::vector<double>& values);
   void anchor_closed_components();
-  void set_first_guess(const Field<Dim, CellKind>& kind, double to_potential);
-  void set_pressure(const Field<Dim, CellKind>& kind, double to_pressure);
-  void correct(FaceField<Dim>& u, const FaceField<Dim>& open) const;
+  void correct(FaceField<Dim>& u, const FaceField<Dim>& open, double dt) const;
   void yield(FaceField<Dim>& u, const FaceField<Dim>& open, const Field<Dim, CellKind>& kind,
-             std::span<const HeavyCell<Dim>> heavy) const;
+             std::span<const HeavyCell<Dim>> heavy, double dt) const;
 
   Sides sides_;
   double dx_;
-  Field<Dim> pressure_;
   Components<Dim> components_;
   PoissonOperator<Dim> poisson_;
-  ConjugateGradient<Dim> solver_;
-  std::vector<double> mean_;  ///< one a component
+  ConjugateGradient<Dim> solver_;  ///< solves for p [Pa]
+  std::vector<double> mean_;       ///< one a component
 };
 
 }  // namespace spindrift

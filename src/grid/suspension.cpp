@@ -1,6 +1,7 @@
 #include "grid/suspension.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -25,8 +26,7 @@ Suspension<Dim>::Suspension(const MacGrid<Dim>& grid, const Sides& sides, const 
       carrier_(velocity_),
       advection_(grid),
       smoke_transport_(grid, sides),
-      core_boundary_(sides),
-      density_(grid.cells) {
+      core_boundary_(sides) {
   for (std::size_t axis = 0; axis < Dim; ++axis) carrier_speed_[axis].resize(velocity_[axis].n_rows());
   update_active(0, grid_.cells[0]);
 }
@@ -54,12 +54,6 @@ void Suspension<Dim>::set_kind(const Field<Dim, CellKind>& kind) {
   std::ranges::copy(kind.values(), kind_.values().begin());
   kinds_are_old_ = true;
   update_active(0, grid_.cells[0]);
-}
-
-template <int Dim>
-void Suspension<Dim>::set_pressure(const Field<Dim>& pressure) {
-  SPINDRIFT_CHECK(pressure.shape() == grid_.cells);
-  std::ranges::copy(pressure.values(), projection_.pressure().values().begin());
 }
 
 template <int Dim>
@@ -161,14 +155,20 @@ void Suspension<Dim>::start_from_velocity() {
   disturbed_ = false;
 }
 
+/// Rows without smoke, now and at the last call, keep the air's density.
 template <int Dim>
 void Suspension<Dim>::set_density() {
+  if (density_.size() == 0) {
+    density_ = Field<Dim>(grid_.cells, options_.air_density);
+    dense_span_.resize(density_.n_rows());
+  }
   parallel_for(
       smoke_.n_rows(),
       [&](std::size_t r) {
+        const Span smoky = nonzero_span(smoke_.row(r)), span = joined(smoky, std::exchange(dense_span_[r], smoky));
         const double *mass = smoke_.row(r).data(), *volume = ground_.volume().row(r).data();
         double* density = density_.row(r).data();
-        for_each_pack(0, grid_.cells[0], [&]<class T>(int i) {
+        for_each_pack(span.begin, span.end, [&]<class T>(int i) {
           const T v = load<T>(volume + i), m = load<T>(mass + i);
           store<T>(density + i, options_.air_density + (v > 0 ? m / (v > 0 ? v : m) : T{}));
         });
@@ -256,7 +256,7 @@ std::size_t Suspension<Dim>::bytes() const {
   std::size_t n = smoke_.bytes() + kind_.bytes() + last_kind_.bytes() + density_.bytes() + projection_.bytes() +
                   ground_.bytes() + advection_.bytes() + smoke_transport_.bytes() + diffusion_.bytes() +
                   confinement_.bytes() + core_boundary_.bytes() + components_.bytes() +
-                  spindrift::bytes(face_momentum_) + spindrift::bytes(smoke_span_);
+                  spindrift::bytes(face_momentum_) + spindrift::bytes(smoke_span_, dense_span_);
   for (std::size_t axis = 0; axis < Dim; ++axis)
     n += velocity_[axis].bytes() + carrier_[axis].bytes() + active_[axis].bytes() + flow_area_[axis].bytes() +
          spindrift::bytes(carrier_speed_[axis]);

@@ -63,17 +63,17 @@ class Suspension {
   const SuspensionOptions<Dim>& options() const { return options_; }
 
   // State, for output and checkpoints. Everything else is derived or scratch.
-  const FaceField<Dim>& velocity() const { return velocity_; }           ///< u on faces [m/s]
-  const Field<Dim>& smoke_mass() const { return smoke_; }                ///< in each cell [kg], >= 0 (R7)
-  const Field<Dim, CellKind>& kind() const { return kind_; }             ///< of the last step
-  const Field<Dim>& pressure() const { return projection_.pressure(); }  ///< [Pa]
+  const FaceField<Dim>& velocity() const { return velocity_; }    ///< u on faces [m/s]
+  const Field<Dim>& smoke_mass() const { return smoke_; }         ///< in each cell [kg], >= 0 (R7)
+  const Field<Dim, CellKind>& kind() const { return kind_; }      ///< of the last step
+  Field<Dim> pressure() const { return projection_.pressure(); }  ///< of the last step's projection [Pa]
 
   /// Initial conditions and restart, between steps. The velocity should be divergence-free; values on closed faces are
   /// kept as they are, so a stored state comes back to the bit.
   void set_velocity(const FaceField<Dim>& u);
   void set_smoke_mass(const Field<Dim>& smoke);
   void set_kind(const Field<Dim, CellKind>& kind);
-  void set_pressure(const Field<Dim>& pressure);
+  void set_pressure(const Field<Dim>& pressure) { projection_.set_pressure(pressure); }
 
   /// The bed's surface: signed distance at nodes [m], positive in the air.  Throws Error(bad_input): not finite.
   /// columns: only cells of these (along the first axis, apart from each other, ascending) have changed; the result is
@@ -148,6 +148,7 @@ class Suspension {
   Field<Dim> density_;                 ///< air and smoke [kg m^-3], scratch of the projection
   std::vector<double> face_momentum_;  ///< scratch of apply()
   std::vector<Span> smoke_span_;       ///< of each row of cells, scratch
+  std::vector<Span> dense_span_;       ///< where density_ is not the air's
   SuspensionBudget<Dim> budget_;
 };
 

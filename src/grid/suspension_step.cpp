@@ -56,8 +56,8 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
     const bool moving = options_.moving_core;
     const auto heavy = moving ? core_boundary_.heavy_cells(cores, kind_) : std::span<const HeavyCell<Dim>>{};
     budget_.pressure = projection_.project(velocity_, density_, ground_.open(), kind_, dt, options_.pressure, heavy);
-    budget_.core_pressure = core_boundary_.add_pressure(cores, projection_.pressure(), kind_, smoke_, ground_,
-                                                        grid_.face_area(), dt, moving);
+    budget_.core_pressure =
+        core_boundary_.add_pressure(cores, projection_, kind_, smoke_, ground_, grid_.face_area(), dt, moving);
     book_all(budget_.projection);
   }
   const auto timed = stages.time("suspension.extrapolation");

@@ -149,8 +149,10 @@ std::string state_digest(const Simulation<Dim>& s) {
     if (m.cover) digest.add(s.cover()->hazard[m.index]);
   });
   if (s.suspension()) {
+    const Field<Dim> pressure = s.suspension()->pressure();
     for (const auto& u : s.suspension()->velocity()) digest.add(u.values());
-    digest.add(s.suspension()->smoke_mass().values()).add(s.suspension()->pressure().values());
+    digest.add(s.suspension()->smoke_mass().values());
+    digest.add(pressure.values());
   }
   return digest.hex();
 }

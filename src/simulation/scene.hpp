@@ -87,7 +87,7 @@ struct SuspensionSection {
   double diffusivity = 0;             ///< of smoke [m^2 s^-1]
   double settling_speed = 0.5;        ///< of smoke [m s^-1]; 0: off (R19)
   double cfl = 1;                     ///< of the cell size
-  double tolerance = 1e-4;            ///< relative residual of the pressure solve
+  double tolerance = 1e-3;            ///< relative residual of the pressure solve
   int max_iterations = 200;
   bool moving_core = true;  ///< R10; false: the paper's rule
   std::optional<ConfinementSection> confinement;

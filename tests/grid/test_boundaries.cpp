@@ -32,9 +32,10 @@ TEMPLATE_TEST_CASE_SIG("a moving core pushes air, and air, core and walls exchan
   const auto& b = air.budget();
   Vec<Dim> core = Vec<Dim>::Zero(), walls = Vec<Dim>::Zero();
   for (const auto& c : cores) core += c.impulse;
+  const Field<Dim> pressure = air.pressure();
   for (int axis = 0; axis < Dim; ++axis) {
     for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) {
-      const double push = air.pressure()[i] * grid.face_area() * dt;
+      const double push = pressure[i] * grid.face_area() * dt;
       if (i[axis] == 0) walls[axis] += push;
       if (i[axis] == n - 1) walls[axis] -= push;
     });
