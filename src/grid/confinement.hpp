@@ -31,7 +31,7 @@ class Confinement {
 
   std::array<Field<Dim>, Dim> force_;  ///< at cell centres [m s^-2], in and beside the rows whose air turns
   std::array<Field<Dim>, n_curl<Dim>> curl_;
-  Field<Dim> size_;                    ///< |omega|
+  Field<Dim> size_;                    ///< |omega|; in 2D that of curl_
   std::vector<std::uint8_t> turning_;  ///< of each row: 1 where its air turns
 };
 

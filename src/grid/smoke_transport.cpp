@@ -26,7 +26,6 @@ SmokeTransport<Dim>::SmokeTransport(const MacGrid<Dim>& grid, const std::array<s
       volume_(grid.cells),
       swept_volume_(grid.cells),
       density_(grid.cells),
-      outflow_(grid.cells),
       flux_(make_face_field<Dim>(grid)) {
   spans_.resize(volume_.n_rows());
   before_.resize(volume_.n_rows());
@@ -105,14 +104,15 @@ void SmokeTransport<Dim>::widen_spans(int axis) {
 template <int Dim>
 double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>& ground) {
   for (int axis = 0; axis < Dim; ++axis) widen_spans(axis);
+  Field<Dim>& out_of_cell = density_;  // which is not needed yet: volume that leaves a cell in dt through all faces
   parallel_for(
       spans_.size(),
       [&](std::size_t r) {
         std::ranges::copy(ground.volume().row(r), volume_.row(r).begin());
-        std::ranges::fill(outflow_.row(r), 0.0);
+        std::ranges::fill(out_of_cell.row(r), 0.0);
         if (spans_[r].empty()) return;
         const Index<Dim> start = volume_.row_start(r);
-        double* out = outflow_.row(r).data();
+        double* out = out_of_cell.row(r).data();
         for (int axis = 0; axis < Dim; ++axis) {
           const std::size_t first = flat<Dim>(start, grid_.faces(axis));
           const auto next = static_cast<std::size_t>(flux_[axis].stride(axis));
@@ -124,9 +124,9 @@ double SmokeTransport<Dim>::largest_outflow(const Flow& flow, const Ground<Dim>&
         }
       },
       volume_.rows_per_task());
-  small_cells_.lend(volume_, outflow_, largest_share);
+  small_cells_.lend(volume_, out_of_cell, largest_share);
   return parallel_max(spans_.size(), 0.0, [&](std::size_t r) {
-    const double *out = outflow_.row(r).data(), *volume = volume_.row(r).data();
+    const double *out = out_of_cell.row(r).data(), *volume = volume_.row(r).data();
     return max_packs(spans_[r].begin, spans_[r].end,
                      [&]<class T>(int i) { return load<T>(out + i) / (load<T>(volume + i) + smallest_divisor); });
   });
@@ -282,7 +282,7 @@ double SmokeTransport<Dim>::deposit(Field<Dim>& smoke, const Ground<Dim>& ground
 
 template <int Dim>
 std::size_t SmokeTransport<Dim>::bytes() const {
-  std::size_t n = volume_.bytes() + swept_volume_.bytes() + density_.bytes() + outflow_.bytes();
+  std::size_t n = volume_.bytes() + swept_volume_.bytes() + density_.bytes();
   for (const auto& f : flux_) n += f.bytes();
   return n + spindrift::bytes(spans_, before_, around_) + small_cells_.bytes();
 }

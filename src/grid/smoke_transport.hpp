@@ -67,7 +67,6 @@ class SmokeTransport {
   Field<Dim> volume_;                 ///< of a cell in this step, with what is lent [m^Dim]
   Field<Dim> swept_volume_;           ///< after the sweeps so far
   Field<Dim> density_;                ///< smoke / swept volume
-  Field<Dim> outflow_;                ///< volume that leaves a cell in dt through all faces
   FaceField<Dim> flux_;               ///< mass through a face
 };
 
