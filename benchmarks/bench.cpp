@@ -1,9 +1,8 @@
 /// Milliseconds a step by stage, of scenes of configs/ in the middle of their motion.
-///   bench [THREADS...]     default: 1 and all
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <CLI/CLI.hpp>
 #include <map>
 
 #include "core/parallel.hpp"
@@ -68,9 +67,12 @@ void measure(const Benchmark& benchmark, const Scene& scene, int threads) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<int> threads;
-  for (int i = 1; i < argc; ++i) threads.push_back(std::atoi(argv[i]));
-  if (threads.empty()) threads = {1, n_threads()};
+  CLI::App app("Milliseconds a step by stage, of scenes in the middle of their motion");
+  std::vector<int> threads{1, n_threads()};
+  app.add_option("threads", threads, "numbers of threads to measure with")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
   for (const Benchmark& benchmark : benchmarks) {
     const Scene scene = read_scene(std::string(SPINDRIFT_SOURCE_DIR "/configs/") + benchmark.scene);
     for (const int n : threads)
