@@ -119,7 +119,9 @@ TEMPLATE_TEST_CASE_SIG("A pitted surface does not push along the slope", "[cover
   for (std::size_t i = 0; i < cover.particles.size(); i += 2)
     if (cover.foot[i].distance > 0.4) remove_from_cover(cover, i);
   index_cover(cover);
-  DenseFlow<Dim> flow({.support_radius = 2 * d});
+  DenseFlowOptions options;
+  options.support_radius = 2 * d;
+  DenseFlow<Dim> flow(options);
   flow.particles = sample_slab<Dim>(terrain, {.at = 1.5, .length = 1, .base = 0.45, .thickness = 0.3, .y = {0.2, 0.8}},
                                     {.spacing = d});
   Walls<Dim> walls;
