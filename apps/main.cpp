@@ -50,7 +50,7 @@ int run_program(int argc, char** argv) {
   CLI::App app{
       "Spindrift simulates mixed-motion avalanches: flowing snow, the cover that it sweeps along, and the snow smoke\n"
       "above it.\n\n"
-      "Example:  spindrift run configs/paper/fig09a.toml -o runs/first",
+      "Example:  spindrift run configs/paper/fig09a_bumpy.toml -o runs/first",
       "spindrift"};
   app.set_version_flag("--version", "spindrift " SPINDRIFT_VERSION);
   app.require_subcommand(1);
