@@ -100,7 +100,7 @@ void add_run(CLI::App& app, Command& chosen) {
   command->add_flag("--no-preview", arguments->no_preview, "draw no pictures");
   command->add_flag("--quiet", arguments->quiet, "say nothing unless it fails");
   command->footer(
-      "Example:  spindrift run configs/paper/fig09a.toml -o runs/long --until 20 --set cover.depth=0.8\n"
+      "Example:  spindrift run configs/paper/fig09a_bumpy.toml -o runs/long --until 20 --set cover.depth=0.8\n"
       "Ctrl-C ends the run cleanly after the step at hand.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
