@@ -194,6 +194,7 @@ void add_smoke(Registry& r) {
       .number<&U::cfl>("cfl", "", above(0, 100), "largest way of the air in a step, in cells")
       .number<&U::tolerance>("tolerance", "", between(0, 1), "relative residual of the pressure solve")
       .number<&U::max_iterations>("max_iterations", "", iterations, "of the pressure solve")
+      .number<&U::wind>("wind", "m/s", speed, "velocity of the air at the start and beyond open sides; default 0")
       .plain<&U::moving_core>("moving_core", "the dense core pushes the air aside; false: the paper's rule", "R10");
   Rows<&Scene::suspension, &U::confinement>(r, "suspension.confinement", "vorticity confinement: keeps swirls alive")
       .number<&ConfinementSection::strength>("strength", "", from(0, 100), "epsilon", "Eq. (8)");

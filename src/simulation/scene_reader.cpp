@@ -140,6 +140,7 @@ class Reader {
       scene_.domain.gravity.back() = -9.81;
     }
     if (scene_.release && scene_.release->velocity.empty()) scene_.release->velocity.assign(dim, 0.0);
+    if (scene_.suspension && scene_.suspension->wind.empty()) scene_.suspension->wind.assign(dim, 0.0);
   }
 
   TomlTable document_;

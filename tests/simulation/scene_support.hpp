@@ -21,6 +21,7 @@ inline Scene scene_with_everything(int dim, std::string_view preset = "physical"
   scene.domain.gravity.assign(n, 0);
   scene.domain.gravity.back() = -9.81;
   scene.release->velocity.assign(n, 0);
+  scene.suspension->wind.assign(n, 2.5);
   return scene;
 }
 

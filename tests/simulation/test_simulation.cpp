@@ -133,3 +133,31 @@ TEST_CASE("Scenes without snow or without anything run", "[simulation]") {
       run<2>(scene_of("schema_version = 1\n[scene]\nend_time = 0.1\n[domain]\nlower=[0, 0]\nupper=[3, 3]\n"));
   CHECK(nothing.memory().empty());
 }
+
+TEST_CASE("Wind goes on through open sides, and around the ground", "[simulation]") {
+  const std::string text = R"(schema_version = 1
+[scene]
+end_time = 4
+[domain]
+lower = [0, 0]
+upper = [16, 8]
+bottom = "closed"
+top = "closed"
+[suspension]
+cell_size = 0.5
+wind = [5, 0]
+tolerance = 1e-8
+)";
+  SECTION("unchanged over a level floor") {
+    const Simulation<2> s = run<2>(scene_of(text));
+    for (const double u : s.suspension()->velocity()[0].values()) CHECK(u == Approx(5).epsilon(1e-6));
+    for (const double w : s.suspension()->velocity()[1].values()) CHECK(std::abs(w) < 1e-6);
+  }
+  SECTION("faster where a slope leaves it less room") {
+    const Simulation<2> s = run<2>(scene_of(
+        text + "[terrain]\nstart = [0, 4]\nangle = \"30 deg\"\ndrop = 3\nrunout_angle = 0\ntransition_radius = 1\n"));
+    const Field<2>& u = s.suspension()->velocity()[0];
+    CHECK(u[Index<2>{2, 14}] > 1.1 * u[Index<2>{28, 14}]);
+    CHECK(u[Index<2>{28, 14}] > 1);
+  }
+}
