@@ -57,6 +57,7 @@ int run_program(int argc, char** argv) {
   Command chosen;
   add_run(app, chosen);
   add_check(app, chosen);
+  add_scene(app, chosen);
   add_info(app, chosen);
   try {
     app.parse(argc, argv);

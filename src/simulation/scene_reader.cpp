@@ -44,6 +44,12 @@ class Reader {
     return scene_;
   }
 
+  Origins origins() const {
+    Origins all;
+    for (const Entry& entry : entries_) all[entry.key->path] = report_.text_of(entry.literal->place);
+    return all;
+  }
+
   void apply(const std::string& setting) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -164,7 +170,8 @@ std::string name_from(const std::string& file) {
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& file, const std::vector<std::string>& settings) {
+Scene parse_scene(std::string_view text, const std::string& file, const std::vector<std::string>& settings,
+                  Origins* origins) {
   std::optional<Reader> reader;
   try {
     reader.emplace(parse_toml(text), file);
@@ -172,10 +179,12 @@ Scene parse_scene(std::string_view text, const std::string& file, const std::vec
     refuse(fmt::format("{}:{}:{}", file, error.place.line, error.place.column), error.why);
   }
   for (const std::string& setting : settings) reader->apply(setting);
-  return reader->read(name_from(file));
+  const Scene scene = reader->read(name_from(file));
+  if (origins != nullptr) *origins = reader->origins();
+  return scene;
 }
 
-Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings) {
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Origins* origins) {
   constexpr std::size_t most = 64 * 1024;
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -187,7 +196,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   text.resize(std::fread(text.data(), 1, text.size(), stream.get()));
   if (text.size() > most) refuse(file.string(), "longer than the 64 kB that a scene may have");
   if (std::ferror(stream.get()) != 0) refuse(file.string(), "cannot be read");
-  return parse_scene(text, file.string(), settings);
+  return parse_scene(text, file.string(), settings, origins);
 }
 
 }  // namespace spindrift

@@ -29,22 +29,21 @@ struct TomlText {
   }
 };
 
-/// "  # [m]"; angles also in degrees.
-std::string comment(const Key& key, Slot field) {
+/// "[m]"; angles also in degrees.
+std::string unit_text(const Key& key, Slot field) {
   if (key.unit.empty()) return "";
-  if (key.unit != "rad") return fmt::format("  # [{}]", key.unit);
-  const double degrees = *std::get<double*>(field) * 180 / std::numbers::pi;
-  return fmt::format("  # [rad], {} deg", number_text(std::round(degrees * 1e6) / 1e6));
+  return key.unit == "rad" ? "[rad], " + degrees_text(*std::get<double*>(field)) : fmt::format("[{}]", key.unit);
 }
 
-/// What an empty list says is that there is no such thing: corners of a slab, vertices of a slope.
-bool is_empty_list(Slot field) {
-  return std::visit(
-      [](const auto* value) {
-        if constexpr (requires { value->empty(); }) return value->empty();
-        return false;
-      },
-      field);
+/// "  # [m], my.toml:12:9"
+std::string comment(const Key& key, Slot field, const Origins* origins) {
+  std::string text = unit_text(key, field);
+  if (origins != nullptr) {
+    const auto origin = origins->find(key.path);
+    text += text.empty() ? "" : ", ";
+    text += origin != origins->end() ? origin->second : "default";
+  }
+  return text.empty() ? "" : "  # " + text;
 }
 
 /// Calls f(key, field) for the keys of `section` that this scene has.
@@ -52,22 +51,39 @@ template <class F>
 void for_each_value(const Section& section, Scene& scene, F&& f) {
   for (const Key& key : keys()) {
     if (key.section() != section.path) continue;
-    const bool of_3d = key.path == "domain.front" || key.path == "domain.back";
     const Slot field = key.field(scene);
-    if (!is_empty_list(field) && (scene.scene.dim == 3 || !of_3d)) f(key, field);
+    if (has_value(key, field, scene.scene.dim)) f(key, field);
   }
 }
 
 }  // namespace
 
-std::string write_scene(const Scene& scene) {
+bool has_value(const Key& key, Slot field, int dim) {
+  if (dim == 2 && (key.path == "domain.front" || key.path == "domain.back")) return false;
+  return std::visit(
+      [](const auto* value) {
+        if constexpr (requires { value->empty(); }) return !value->empty();
+        return true;
+      },
+      field);
+}
+
+std::string degrees_text(double angle) {
+  return number_text(std::round(angle * 180 / std::numbers::pi * 1e6) / 1e6) + " deg";
+}
+
+std::string value_text(Slot field) {
+  return std::visit(TomlText{}, field);
+}
+
+std::string write_scene(const Scene& scene, const Origins* origins) {
   Scene copy = scene;
   std::string text = "schema_version = 1\n";
   for (const Section& section : sections()) {
     if (!section.exists(copy)) continue;
     text += fmt::format("\n[{}]\n", section.path);
     for_each_value(section, copy, [&](const Key& key, Slot field) {
-      text += fmt::format("{} = {}{}\n", key.name(), std::visit(TomlText{}, field), comment(key, field));
+      text += fmt::format("{} = {}{}\n", key.name(), value_text(field), comment(key, field, origins));
     });
   }
   return text;
@@ -80,7 +96,7 @@ std::string canonical_scene(const Scene& scene) {
     if (!section.exists(copy)) continue;
     text += fmt::format("[{}]\n", section.path);
     for_each_value(section, copy, [&](const Key& key, Slot field) {
-      if (key.path != "scene.name") text += fmt::format("{} = {}\n", key.path, std::visit(TomlText{}, field));
+      if (key.path != "scene.name") text += fmt::format("{} = {}\n", key.path, value_text(field));
     });
   }
   return text;

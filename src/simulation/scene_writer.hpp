@@ -3,16 +3,26 @@
 
 #include <string>
 
+#include "simulation/registry.hpp"
 #include "simulation/scene.hpp"
+#include "simulation/scene_reader.hpp"
 
 namespace spindrift {
 
 /// Every value of every section that exists, in SI, the unit as a comment. parse_scene of it gives the same scene, bit
 /// by bit.
-std::string write_scene(const Scene& scene);
+/// origins   null, or where each value comes from, written behind its unit; what has none is a default
+std::string write_scene(const Scene& scene, const Origins* origins = nullptr);
 
 /// `path = value` lines in the order of the registry, without comments, for a hash: equal for equal scenes whatever
 /// their files look like. The name, which changes no result, is left out.
 std::string canonical_scene(const Scene& scene);
+
+/// A value as TOML, in SI.
+std::string value_text(Slot field);
+/// "38 deg" of an angle in radians, to six digits after the point.
+std::string degrees_text(double angle);
+/// Whether a scene of that dimension says anything there: an empty list or name is no value, nor is a side of 3D in 2D.
+bool has_value(const Key& key, Slot field, int dim);
 
 }  // namespace spindrift

@@ -221,3 +221,19 @@ TEST_CASE("a run that is asked to stop ends after its step", "[commands]") {
   CHECK(text_of(place.folder() / "err").find("stopped: ") != std::string::npos);
   CHECK(place.run("info long --json").out.find("\"status\": \"stopped\"") != std::string::npos);
 }
+
+TEST_CASE("scene tells the schema, the defaults, or what a scene amounts to", "[commands]") {
+  const Workplace place;
+  place.write("box.toml", scene);
+  const Outcome schema = place.run("scene --schema");
+  CHECK(schema.code == 0);
+  CHECK(schema.out.starts_with("{\n  \"$schema\""));
+  CHECK(place.run("scene --defaults --preset paper").out.find("[dense_flow]") != std::string::npos);
+  const Outcome printed = place.run("scene --print box.toml --set dense_flow.density=200");
+  CHECK(printed.code == 0);
+  CHECK(printed.out.find("density = 200  # [kg/m^3], --set") != std::string::npos);
+  CHECK(printed.out.find("support_radius = 0.4  # [m], box.toml:14:18") != std::string::npos);
+  CHECK(place.run("scene").code == 2);
+  CHECK(place.run("scene --schema --defaults").code == 2);
+  CHECK(place.run("scene --print nothing.toml").code == 2);
+}
