@@ -45,10 +45,8 @@ void let_in_ambient_air(FaceField<Dim>& u, const FaceField<Dim>& carrier, const 
   for (int normal = 0; normal < Dim; ++normal)
     for (int side = 0; side < 2; ++side) {
       if (sides[normal][side] != Side::open) continue;
-      for (int axis = 0; axis < Dim; ++axis) {
-        const auto a = axis;
-        let_in<Dim>(u[a], axis, carrier, flow_area[a], grid, normal, side, wind[axis], dt);
-      }
+      for (int axis = 0; axis < Dim; ++axis)
+        let_in<Dim>(u[axis], axis, carrier, flow_area[axis], grid, normal, side, wind[axis], dt);
     }
 }
 
