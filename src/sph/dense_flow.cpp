@@ -141,7 +141,12 @@ double DenseFlow<Dim>::time_step_limit(double cfl, double gravity) const {
   const double fastest = std::sqrt(
       parallel_max(particles.size(), 0.0, [&](std::size_t i) { return particles.velocity[i].squaredNorm(); }));
   const double limit = std::min(cfl * d / fastest, cfl * std::sqrt(d / gravity));
-  if (options_.solver == DenseSolver::wcsph) return std::min(limit, wcsph_time_step(options_.sound_speed, d));
+  if (options_.solver == DenseSolver::wcsph) {
+    const double lightness = parallel_max(particles.size(), 1.0, [&](std::size_t i) {
+      return options_.density * particles.volume[i] / particles.mass[i];
+    });
+    return std::min(limit, wcsph_time_step(options_.sound_speed * std::sqrt(lightness), d));
+  }
   const double wave = std::sqrt(parallel_max(particles.size(), 0.0, [&](std::size_t i) {
     return particles.pressure[i] * particles.volume[i] / particles.mass[i];
   }));

@@ -11,7 +11,8 @@ template <int Dim>
 Vec<Dim> apply_state_pressure(Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double sound_speed,
                               double density, double dt) {
   parallel_for(particles.size(), [&](std::size_t i) {
-    particles.pressure[i] = sound_speed * sound_speed * density * std::max(0.0, neighbours.volume_sum()[i] - 1);
+    particles.pressure[i] =
+        sound_speed * sound_speed * density * std::max(0.0, neighbours.volume_sum()[i] - neighbours.full()[i]);
   });
   return apply_pressure(particles.velocity, particles, neighbours, particles.pressure, dt);
 }

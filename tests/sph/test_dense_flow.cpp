@@ -194,3 +194,14 @@ TEST_CASE("absent physics has no pass", "[dense_flow]") {
   CHECK(stages.passes("dense_flow.pressure") == 1);
   CHECK(flow.neighbours().no_slip_coefficient().empty());
 }
+
+TEST_CASE("the equation of state's step follows the lightest snow", "[dense_flow]") {
+  DenseFlowOptions options = options_for<2>(0.1);
+  options.solver = DenseSolver::wcsph;
+  options.sound_speed = 100;
+  DenseFlow<2> flow(options);
+  add_block<2>(flow.particles, {2, 2}, 0.1, options.density, {0, 0});
+  CHECK(flow.time_step_limit(0.4, 9.81) == Approx(0.4 * 0.1 / 100));
+  flow.particles.mass[2] /= 9;  // a wave three times as fast
+  CHECK(flow.time_step_limit(0.4, 9.81) == Approx(0.4 * 0.1 / 300));
+}
