@@ -39,7 +39,11 @@ ExitCode check(const SceneArguments& arguments) {
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
   command.add_option("SCENE.toml", arguments.file, "scene file")->required()->type_name("");
-  command.add_option("--set", arguments.settings, "change one value of the scene, as in --set terrain.angle='40 deg'")
+  add_settings(command, arguments.settings);
+}
+
+void add_settings(CLI::App& command, std::vector<std::string>& settings) {
+  command.add_option("--set", settings, "change one value of the scene, as in --set terrain.angle='40 deg'")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }

@@ -25,5 +25,7 @@ struct SceneArguments {
 };
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
+/// The option --set alone.
+void add_settings(CLI::App& command, std::vector<std::string>& settings);
 
 }  // namespace spindrift

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "simulation/registry.hpp"
 #include "simulation/scene_reader.hpp"
 #include "simulation/scene_schema.hpp"
 #include "simulation/scene_writer.hpp"
@@ -40,12 +41,11 @@ void add_scene(CLI::App& app, Command& chosen) {
   what->add_option("--print", wanted->print.file, "the scene with every value, and where each one comes from")
       ->type_name("SCENE.toml");
   what->require_option(1);
+  const auto& presets = find_key("scene.preset")->words;
   command->add_option("--preset", wanted->preset, "whose defaults")
-      ->check(CLI::IsMember({"physical", "paper"}))
+      ->check(CLI::IsMember(std::vector<std::string>(presets.begin(), presets.end())))
       ->capture_default_str();
-  command->add_option("--set", wanted->print.settings, "change one value of the printed scene")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_settings(*command, wanted->print.settings);
   command->footer("Example:  spindrift scene --print my_slope.toml --set terrain.angle='40 deg'");
   command->callback([wanted, &chosen] { chosen = [wanted] { return show(*wanted); }; });
 }

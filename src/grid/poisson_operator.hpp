@@ -30,10 +30,9 @@ struct YieldTerm {
 template <int Dim>
 void merge_yields(std::vector<YieldTerm<Dim>>& yields);
 
-/// (A phi)_c = sum_f c_f (phi_c - phi_neighbour) + y_c phi_c,  c_f = open_f / rho_f [m3/kg], zero on faces whose
-/// velocity is given, y_c the yield of the core's faces. phi = p dt / dx is the potential; beyond an open side phi = 0
-/// at half a cell, c_f = 2 open_f / rho_c. Symmetric; zero rows where a cell is not open. Vectors are in the parity
-/// layout.
+/// (A p)_c = sum_f c_f (p_c - p_neighbour) + y_c p_c,  c_f = open_f / rho_f [m3/kg], zero on faces whose velocity is
+/// given, y_c the yield of the core's faces; beyond an open side p = 0 at half a cell, c_f = 2 open_f / rho_c.
+/// Symmetric; zero rows where a cell is not open. Vectors are in the parity layout.
 template <int Dim>
 struct PoissonOperator {
   ParityLayout<Dim> layout;

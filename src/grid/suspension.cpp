@@ -179,11 +179,11 @@ void Suspension<Dim>::set_density() {
 template <int Dim>
 Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
   Vec<Dim> change = Vec<Dim>::Zero();
-  if (options_.gravity.isZero() || std::ranges::none_of(smoke_.values(), [](double m) { return m != 0; }))
-    return change;
-  disturbed_ = true;
+  if (options_.gravity.isZero()) return change;
   smoke_span_.resize(smoke_.n_rows());
   for (std::size_t r = 0; r < smoke_.n_rows(); ++r) smoke_span_[r] = nonzero_span(smoke_.row(r));
+  if (std::ranges::all_of(smoke_span_, &Span::empty)) return change;
+  disturbed_ = true;
   const double air = options_.air_density;
   const auto density = [&](const Index<Dim>& cell) {
     const double volume = ground_.volume()[cell];
