@@ -235,5 +235,6 @@ TEST_CASE("scene tells the schema, the defaults, or what a scene amounts to", "[
   CHECK(printed.out.find("support_radius = 0.4  # [m], box.toml:14:18") != std::string::npos);
   CHECK(place.run("scene").code == 2);
   CHECK(place.run("scene --schema --defaults").code == 2);
+  CHECK(place.run("scene --defaults --preset pape").err.find("pape") != std::string::npos);
   CHECK(place.run("scene --print nothing.toml").code == 2);
 }
