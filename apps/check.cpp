@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <thread>
 
 #include "commands.hpp"
 #include "plain_text.hpp"
 #include "simulation/plan.hpp"
 #include "simulation/scene_reader.hpp"
-#include "simulation/setup.hpp"
+#include "simulation/scene_warnings.hpp"
 
 namespace spindrift {
 namespace {
@@ -17,11 +20,9 @@ void row(std::string_view name, fmt::format_string<T...> format, T&&... values) 
 }
 
 ExitCode check(const SceneArguments& arguments) {
-  const Scene scene = read_scene(arguments.file, arguments.settings);
-  const Plan plan = plan_scene(scene);
-  const std::filesystem::path folder = "runs/" + scene.scene.name;
-  require_fit(scene, plan, folder);
-  scene.scene.dim == 2 ? static_cast<void>(make_walls<2>(scene)) : static_cast<void>(make_walls<3>(scene));
+  std::filesystem::path folder;
+  Plan plan;
+  const Scene scene = read_and_judge(arguments, folder, plan);
 
   std::string grid = "none";
   for (std::size_t k = 0; k < plan.grid.size(); ++k)
@@ -32,10 +33,24 @@ ExitCode check(const SceneArguments& arguments) {
   row("frames", "{}", count_text(plan.n_frames));
   row("memory", "about {}, {} available", bytes_text(plan.memory), bytes_text(memory_available()));
   row("disk", "about {}, {} left at {}", bytes_text(plan.disk), bytes_text(disk_available(folder)), folder.string());
+  row("steps", "about {}", count_text(std::round(plan.n_steps / 10) * 10));
+  row("time", "about {} on {} threads, up to three times more or less", duration_text(plan.seconds),
+      std::max(1u, std::thread::hardware_concurrency()));
   return ExitCode::done;
 }
 
 }  // namespace
+
+Scene read_and_judge(const SceneArguments& arguments, std::filesystem::path& folder, Plan& plan, bool quiet) {
+  Origins origins;
+  const Scene scene = read_scene(arguments.file, arguments.settings, &origins);
+  if (folder.empty()) folder = "runs/" + scene.scene.name;
+  plan = plan_scene(scene);
+  require_fit(scene, plan, folder);
+  if (quiet) return scene;
+  for (const std::string& line : scene_warnings(scene, origins)) fmt::print(stderr, "{}\n", line);
+  return scene;
+}
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
   command.add_option("SCENE.toml", arguments.file, "scene file")->required()->type_name("");

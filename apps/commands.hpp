@@ -2,11 +2,13 @@
 /// The commands of the program, one file each.
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "simulation/plan.hpp"
 
 namespace spindrift {
 
@@ -23,6 +25,10 @@ struct SceneArguments {
   std::string file;
   std::vector<std::string> settings;
 };
+
+/// Reads the scene, refuses one that does not fit into this machine, and tells on stderr what hardly makes sense in it.
+/// folder   where its results will go; empty: runs/ and the scene's name
+Scene read_and_judge(const SceneArguments& arguments, std::filesystem::path& folder, Plan& plan, bool quiet = false);
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
 /// The option --set alone.

@@ -58,9 +58,9 @@ std::string_view outcome(ExitCode code) {
 }
 
 ExitCode run(const RunArguments& arguments) {
-  const Scene scene = read_scene(arguments.scene.file, settings(arguments));
-  const std::filesystem::path folder = arguments.folder.empty() ? "runs/" + scene.scene.name : arguments.folder;
-  require_fit(scene, plan_scene(scene), folder);
+  std::filesystem::path folder = arguments.folder;
+  Plan plan;
+  const Scene scene = read_and_judge({arguments.scene.file, settings(arguments)}, folder, plan, arguments.quiet);
   stop_on_signals();
 
   ProgressLine line;

@@ -29,19 +29,29 @@ double cover_height(const Cover<Dim>& cover, const Vec<Dim - 1>& place) {
 }  // namespace
 
 template <int Dim>
-GroundSurface<Dim>::GroundSurface(const Terrain<Dim>& terrain, const MacGrid<Dim>& grid, const Cover<Dim>* cover)
+double GroundSurface<Dim>::distance_over(const Cover<Dim>& cover, const Near& near) const {
+  return std::min(near.terrain_distance - cover_height<Dim>(cover, near.place), near.obstacle_distance);
+}
+
+template <int Dim>
+GroundSurface<Dim>::GroundSurface(const Walls<Dim>& walls, const MacGrid<Dim>& grid, const Cover<Dim>* cover)
     : grid_(grid), reach_((cover ? cover->thickness : 0) + 3 * grid.dx), distance_(grid.nodes()) {
   for_each_index<Dim>(grid.nodes(), [&](const Index<Dim>& i) {
     const Vec<Dim> x = grid.node(i);
-    const Foot<Dim> foot = terrain.foot(x, reach_);
-    distance_[i] = foot.distance;
+    double obstacle_distance = reach_;
+    for (const Box<Dim>& obstacle : walls.obstacles)
+      obstacle_distance = std::min(obstacle_distance, surface_of<Dim>(obstacle, x).distance);
+    distance_[i] = obstacle_distance;
+    if (!walls.terrain) return;
+    const Foot<Dim> foot = walls.terrain->foot(x, reach_);
+    distance_[i] = std::min(foot.distance, obstacle_distance);
     if (std::abs(foot.distance) < reach_)
-      near_.push_back({flat<Dim>(i, grid.nodes()), foot.distance, foot.place, i[0]});
+      near_.push_back({flat<Dim>(i, grid.nodes()), foot.distance, obstacle_distance, foot.place, i[0]});
   });
   std::sort(near_.begin(), near_.end(),
             [](const Near& a, const Near& b) { return a.column != b.column ? a.column < b.column : a.node < b.node; });
   if (cover)
-    for (const Near& near : near_) distance_[near.node] = near.terrain_distance - cover_height<Dim>(*cover, near.place);
+    for (const Near& near : near_) distance_[near.node] = distance_over(*cover, near);
 }
 
 template <int Dim>
@@ -67,7 +77,7 @@ std::span<const Span> GroundSurface<Dim>::follow(const Cover<Dim>& cover, std::s
     const auto first = std::lower_bound(near_.begin(), near_.end(), span.begin,
                                         [](const Near& near, int c) { return near.column < c; });
     for (auto near = first; near != near_.end() && near->column <= span.end; ++near)
-      distance_[near->node] = near->terrain_distance - cover_height<Dim>(cover, near->place);
+      distance_[near->node] = distance_over(cover, *near);
   }
   return moved_;
 }

@@ -1,20 +1,21 @@
 #pragma once
-/// The suspension's lower boundary: the cover's surface, which sinks as snow is entrained, or the bare terrain (R21).
+/// What is solid for the suspension: the cover's surface, which sinks as snow is entrained, or the bare terrain (R21),
+/// and obstacles.
 
 #include <span>
 #include <vector>
 
 #include "grid/ground.hpp"
 #include "sph/cover.hpp"
-#include "terrain/terrain.hpp"
+#include "terrain/walls.hpp"
 
 namespace spindrift {
 
 template <int Dim>
 class GroundSurface {
  public:
-  /// cover   null: bare ground
-  GroundSurface(const Terrain<Dim>& terrain, const MacGrid<Dim>& grid, const Cover<Dim>* cover);
+  /// walls   with a terrain, obstacles or both;   cover   null: bare ground
+  GroundSurface(const Walls<Dim>& walls, const MacGrid<Dim>& grid, const Cover<Dim>* cover);
 
   /// Signed distance to the boundary at the grid's nodes [m], positive in the air; right near the boundary, elsewhere
   /// only its sign.
@@ -29,10 +30,13 @@ class GroundSurface {
  private:
   struct Near {
     std::size_t node;
-    double terrain_distance;  ///< [m]
-    Vec<Dim - 1> place;       ///< of the node's foot on the terrain
-    int column;               ///< of the node along the first axis
+    double terrain_distance;   ///< [m]
+    double obstacle_distance;  ///< [m]
+    Vec<Dim - 1> place;        ///< of the node's foot on the terrain
+    int column;                ///< of the node along the first axis
   };
+  double distance_over(const Cover<Dim>& cover, const Near& near) const;
+
   MacGrid<Dim> grid_;
   double reach_;  ///< distance up to which nodes follow the surface [m]
   Field<Dim> distance_;

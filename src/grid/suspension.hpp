@@ -26,6 +26,8 @@ struct SuspensionOptions {
   double air_density = 1.2;                              ///< [kg m^-3]
   AdvectionScheme scheme = AdvectionScheme::maccormack;  ///< of the velocity
   double viscosity = 0;                                  ///< kinematic, of the air [m^2 s^-1]
+  bool no_slip = false;                                  ///< closed sides hold the air by its viscosity
+  Vec<Dim> lid = Vec<Dim>::Zero();                       ///< velocity of a closed top that holds it [m s^-1]
   double diffusivity = 0;                                ///< of the smoke [m^2 s^-1]
   double settling_speed = 0;          ///< of the smoke relative to the air, along gravity [m s^-1] (R19)
   Vec<Dim> wind = Vec<Dim>::Zero();   ///< velocity of the air that open sides let in [m s^-1]

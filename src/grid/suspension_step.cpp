@@ -41,7 +41,8 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
   // 3. Forces.
   if (options_.viscosity > 0) {
     const auto timed = stages.time("suspension.viscosity");
-    diffusion_.diffuse_velocity(velocity_, smoke_, flow_area_, grid_, ground_, options_.viscosity, dt);
+    diffusion_.diffuse_velocity(velocity_, smoke_, flow_area_, grid_, ground_, {sides_, options_.no_slip, options_.lid},
+                                options_.viscosity, dt);
     book_all(budget_.diffusion);
   }
   if (options_.confinement) {
@@ -69,7 +70,7 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
 /// No air moves and none will.
 template <int Dim>
 bool Suspension<Dim>::at_rest(std::span<const CoreCell<Dim>> cores) const {
-  return cores.empty() && !kinds_are_old_ && !disturbed_ && max_speed() == 0;
+  return cores.empty() && !kinds_are_old_ && !disturbed_ && max_speed() == 0 && options_.lid.isZero();
 }
 
 /// Sets the kind of every cell, and what follows from it.

@@ -138,6 +138,14 @@ void Picture::ground(std::span<const Vec<2>> surface) {
   cairo_restore(context);
 }
 
+void Picture::box(const Box<2>& box) {
+  const Vec<2> corner = canvas_->to_pixels({box.lower[0], box.upper[1]});
+  const Vec<2> size = canvas_->to_pixels({box.upper[0], box.lower[1]}) - corner;
+  cairo_rectangle(canvas_->context, corner[0], corner[1], size[0], size[1]);
+  set_colour(canvas_->context, colours::ground);
+  cairo_fill(canvas_->context);
+}
+
 void Picture::cover(std::span<const Vec<2>> base, std::span<const Vec<2>> surface) {
   if (base.empty() || surface.empty()) return;
   cairo_t* const context = canvas_->context;

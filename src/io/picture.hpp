@@ -1,6 +1,6 @@
 #pragma once
 /// Pictures of a scene in the x-z plane, in the manner of the paper's figures: white snow before a dark blue sky.
-/// Later calls paint over earlier ones; a good order is sky, smoke, ground, cover, discs, time, scale bar.
+/// Later calls paint over earlier ones; a good order is sky, smoke, ground, boxes, cover, discs, time, scale bar.
 
 #include <cstddef>
 #include <cstdint>
@@ -52,6 +52,9 @@ class Picture {
 
   /// Everything below the polyline `surface` [m], left to right; its ends go on level.
   void ground(std::span<const Vec<2>> surface);
+
+  /// Something solid [m], in the ground's colour.
+  void box(const Box<2>& box);
 
   /// The layer between the polylines `base` and `surface` [m], both left to right.
   void cover(std::span<const Vec<2>> base, std::span<const Vec<2>> surface);

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <string>
+#include <thread>
 
 #include "core/error.hpp"
 
@@ -16,7 +19,11 @@ namespace {
 // Bytes an item of state, scratch and files, as measured on the paper's 2D scenes.
 constexpr double bytes_per_dense = 1000, bytes_per_cover = 200, bytes_per_cell = 360, bytes_of_program = 33e6;
 constexpr double file_bytes_per_particle = 12, file_bytes_per_cell = 8, bytes_per_picture = 60e3;
-constexpr double bytes_per_diagnostics_row = 800, typical_step = 5e-3;
+constexpr double bytes_per_diagnostics_row = 800;
+// Seconds of one core, as measured.
+constexpr double seconds_per_dense_step = 1.9e-6, seconds_per_cell_step = 5.5e-8, seconds_per_frame = 0.05;
+constexpr double longest_step = 0.01;  // [s]
+constexpr double growth_by_cover = 2;  // of the number of moving particles, as a mean over a run
 
 /// Arc length of the ground [m], without its arcs and bumps.
 double ground_length(const TerrainSection& terrain, double domain_end) {
@@ -31,11 +38,64 @@ double ground_length(const TerrainSection& terrain, double domain_end) {
   return terrain.drop / std::sin(terrain.angle) + std::max(0.0, run_out) / std::cos(terrain.runout_angle);
 }
 
-double release_volume(const ReleaseSection& release, double width) {
-  if (release.shape == "slab") return release.length * release.thickness * width;
+double box_volume(const std::vector<double>& lower, const std::vector<double>& upper) {
   double volume = 1;
-  for (std::size_t k = 0; k < release.lower.size(); ++k) volume *= release.upper[k] - release.lower[k];
+  for (std::size_t k = 0; k < lower.size(); ++k) volume *= upper[k] - lower[k];
   return volume;
+}
+
+/// By the sum over its trapezes [m^2].
+double polygon_area(const std::vector<std::array<double, 2>>& corners) {
+  double twice = 0;
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++)
+    twice += corners[j][0] * corners[i][1] - corners[i][0] * corners[j][1];
+  return std::abs(twice) / 2;
+}
+
+double release_volume(const ReleaseSection& release, double width, int dim) {
+  if (release.shape == "slab") return release.length * release.thickness * width;
+  if (release.shape == "polygon") return polygon_area(release.points) * width;
+  if (release.shape == "box") return box_volume(release.lower, release.upper);
+  return (dim == 3 ? 4.0 / 3.0 : 1.0) * std::numbers::pi * std::pow(release.radius, dim);
+}
+
+double norm(const std::vector<double>& v) {
+  return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+}
+
+/// How far snow falls over what is there [m]: along a slope, friction and resistance leave a quarter of the drop.
+double typical_fall(const Scene& scene) {
+  const double bottom = scene.domain.lower.back(), height = scene.domain.upper.back() - bottom;
+  if (scene.terrain) return (scene.terrain->shape == "polyline" ? height : scene.terrain->drop) / 4;
+  double top = bottom;
+  for (const ReleaseSection& release : scene.release) {
+    if (release.shape == "box") top = std::max(top, release.upper.back());
+    if (release.shape == "ball") top = std::max(top, release.center.back() + release.radius);
+    for (const auto& corner : release.points) top = std::max(top, corner[1]);
+  }
+  return top - bottom;
+}
+
+/// Speed that sets the time step [m/s].
+double typical_speed(const Scene& scene) {
+  double speed = scene.dense_flow ? std::sqrt(2 * norm(scene.domain.gravity) * typical_fall(scene)) : 0;
+  for (const ReleaseSection& release : scene.release) speed = std::max(speed, norm(release.velocity));
+  if (scene.suspension) speed = std::max({speed, norm(scene.suspension->wind), norm(scene.suspension->lid)});
+  return speed;
+}
+
+/// [s]
+double typical_step(const Scene& scene) {
+  const double speed = typical_speed(scene);
+  double dt = longest_step;
+  if (scene.dense_flow) {
+    const double spacing = scene.dense_flow->support_radius / 2;
+    const double signal = scene.dense_flow->solver == "wcsph" ? 10 * speed : speed;
+    dt = std::min(dt, scene.dense_flow->cfl * spacing / signal);
+  }
+  // Snow drags air along, and squeezes it out faster than it moves itself.
+  if (scene.suspension) dt = std::min(dt, scene.suspension->cfl * scene.suspension->cell_size / (2 * speed));
+  return dt;
 }
 
 /// A number that follows `label` in `file`; infinity where there is none.
@@ -65,7 +125,8 @@ Plan plan_scene(const Scene& scene) {
   const double width = scene.scene.dim == 3 ? upper[1] - lower[1] : 1;
   if (scene.dense_flow) {
     const double particle = std::pow(scene.dense_flow->support_radius / 2, scene.scene.dim);
-    if (scene.release) plan.n_release = std::ceil(release_volume(*scene.release, width) / particle);
+    for (const ReleaseSection& release : scene.release)
+      plan.n_release += std::round(release_volume(release, width, scene.scene.dim) / particle);
     if (scene.cover && scene.terrain) {
       const double end = scene.cover->to >= 0 ? scene.cover->to : ground_length(*scene.terrain, upper[0]);
       plan.n_cover = std::ceil(std::max(0.0, end - scene.cover->from) * scene.cover->depth * width / particle);
@@ -78,6 +139,7 @@ Plan plan_scene(const Scene& scene) {
       plan.n_cells *= plan.grid.back();
     }
   }
+  plan.n_steps = std::ceil(scene.scene.end_time / typical_step(scene));
   const OutputSection& output = scene.output;
   const double n_particles = plan.n_release + plan.n_cover;
   plan.n_frames = std::floor(scene.scene.end_time * output.frames_per_second) + 1;
@@ -86,7 +148,11 @@ Plan plan_scene(const Scene& scene) {
   plan.disk = plan.n_frames *
                   ((output.particles ? file_bytes_per_particle * n_particles : 0) +
                    (output.smoke ? file_bytes_per_cell * plan.n_cells : 0) + (output.preview ? bytes_per_picture : 0)) +
-              bytes_per_diagnostics_row * scene.scene.end_time / typical_step;
+              bytes_per_diagnostics_row * plan.n_steps;
+  const double n_moving = plan.n_release * (scene.entrainment ? growth_by_cover : 1);
+  const double work = n_moving * seconds_per_dense_step + plan.n_cells * seconds_per_cell_step;
+  const double n_cores = std::max(1u, std::thread::hardware_concurrency());
+  plan.seconds = (plan.n_steps * work + plan.n_frames * seconds_per_frame) / (n_cores > 1 ? 0.85 * n_cores : 1);
   return plan;
 }
 

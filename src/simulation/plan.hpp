@@ -15,8 +15,10 @@ struct Plan {
   std::vector<double> grid;  ///< cells along each axis; empty without a suspension
   double n_cells = 0;
   double n_frames = 0;
-  double memory = 0;  ///< peak [B], within about a factor of two
-  double disk = 0;    ///< run folder [B], within about a factor of two
+  double memory = 0;   ///< peak [B], within about a factor of two
+  double disk = 0;     ///< run folder [B], within about a factor of two
+  double n_steps = 0;  ///< within about a factor of two
+  double seconds = 0;  ///< of the whole run on all of this machine's cores [s], within about a factor of three
 };
 
 Plan plan_scene(const Scene& scene);

@@ -6,8 +6,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double opaque_smoke = 1.0;  // [kg m^-3]: hides 63 % of what is behind it
-
 void add_ground(PreviewFrame& frame, const Simulation<2>& simulation) {
   const Terrain<2>& terrain = *simulation.walls().terrain;
   for (const Vec<2>& vertex : terrain.vertices())
@@ -58,7 +56,9 @@ PreviewFrame preview_frame(const Simulation<2>& simulation) {
   frame.world = simulation.walls().domain;
   frame.width = simulation.scene().output.preview_width;
   frame.time = simulation.time();
+  frame.opaque_smoke = simulation.scene().output.opaque_smoke;
   if (simulation.walls().terrain) add_ground(frame, simulation);
+  frame.obstacles = simulation.walls().obstacles;
   if (simulation.cover()) add_cover(frame, *simulation.cover(), *simulation.walls().terrain);
   if (simulation.dense()) add_snow(frame, *simulation.dense());
   if (simulation.suspension()) add_smoke(frame, *simulation.suspension());
@@ -78,6 +78,7 @@ std::vector<std::byte> PreviewFrame::png() const {
     picture.smoke(field, opaque_smoke);
   }
   if (!ground.empty()) picture.ground(ground);
+  for (const Box<2>& obstacle : obstacles) picture.box(obstacle);
   if (!cover_base.empty()) picture.cover(cover_base, cover_top);
   constexpr std::array<Colour, 2> palette{colours::snow, colours::entrained};
   if (!snow.empty()) picture.discs(snow, snow_radius, palette, snow_kind);

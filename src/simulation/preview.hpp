@@ -11,9 +11,10 @@ namespace spindrift {
 /// What a picture shows, copied from the simulation, so that it can be drawn elsewhere while the simulation goes on.
 struct PreviewFrame {
   Box<2> world;
-  int width = 1380;                           ///< [px]
-  double time = 0;                            ///< [s]
-  std::vector<Vec<2>> ground;                 ///< the terrain's surface, left to right; may be empty
+  int width = 1380;            ///< [px]
+  double time = 0;             ///< [s]
+  std::vector<Vec<2>> ground;  ///< the terrain's surface, left to right; may be empty
+  std::vector<Box<2>> obstacles;
   std::vector<Vec<2>> cover_base, cover_top;  ///< may be empty
   std::vector<Vec<2>> snow;                   ///< centres of the dense flow's particles, by id
   std::vector<std::uint8_t> snow_kind;        ///< 0 released, 1 entrained
@@ -22,6 +23,7 @@ struct PreviewFrame {
   std::vector<std::uint8_t> solid;
   Index<2> smoke_shape{};
   double dx = 1;
+  double opaque_smoke = 1;  ///< [kg m^-3]: hides 63 % of what is behind it
 
   std::vector<std::byte> png() const;
 };

@@ -1,89 +1,14 @@
 #include "simulation/registry.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
-#include <optional>
+
+#include "simulation/registry_rows.hpp"
 
 namespace spindrift {
 namespace {
-
-template <class T>
-constexpr bool is_optional = false;
-template <class T>
-constexpr bool is_optional<std::optional<T>> = true;
-
-/// The member at the end of a path of member pointers, through the sections on the way.
-template <auto First, auto... Rest, class S>
-auto& member(S& owner) {
-  auto& next = owner.*First;
-  if constexpr (sizeof...(Rest) == 0) {
-    return next;
-  } else if constexpr (is_optional<std::remove_cvref_t<decltype(next)>>) {
-    return member<Rest...>(*next);
-  } else {
-    return member<Rest...>(next);
-  }
-}
-
-template <auto First, auto... Rest, class S>
-bool exists(const S& owner) {
-  if constexpr (is_optional<std::remove_cvref_t<decltype(owner.*First)>>) {
-    if (!(owner.*First)) return false;
-    if constexpr (sizeof...(Rest) > 0) return exists<Rest...>(*(owner.*First));
-  }
-  return true;
-}
-
-template <auto First, auto... Rest, class S>
-void create(S& owner) {
-  if constexpr (is_optional<std::remove_cvref_t<decltype(owner.*First)>>) {
-    if (!(owner.*First)) (owner.*First).emplace();
-    if constexpr (sizeof...(Rest) > 0) create<Rest...>(*(owner.*First));
-  }
-}
-
-struct Registry {
-  std::vector<Section> sections;
-  std::vector<Key> keys;
-};
-
-/// Adds one section, and its keys one by one; Path leads from the Scene to the section.
-template <auto... Path>
-class Rows {
- public:
-  Rows(Registry& registry, std::string_view path, std::string_view doc) : registry_(registry), path_(path) {
-    registry.sections.push_back({path, doc, [](const Scene& scene) { return exists<Path...>(scene); },
-                                 [](Scene& scene) { create<Path...>(scene); }});
-  }
-
-  template <auto Member>
-  Rows& number(std::string_view name, std::string_view unit, Range range, std::string_view doc,
-               std::string_view source = "") {
-    return add<Member>(name, unit, range, {}, doc, source);
-  }
-  template <auto Member>
-  Rows& words(std::string_view name, std::vector<std::string_view> allowed, std::string_view doc,
-              std::string_view source = "") {
-    return add<Member>(name, "", {}, std::move(allowed), doc, source);
-  }
-  template <auto Member>
-  Rows& plain(std::string_view name, std::string_view doc, std::string_view source = "") {
-    return add<Member>(name, "", {}, {}, doc, source);
-  }
-
- private:
-  template <auto Member>
-  Rows& add(std::string_view name, std::string_view unit, Range range, std::vector<std::string_view> allowed,
-            std::string_view doc, std::string_view source) {
-    const auto field = [](Scene& scene) -> Slot { return &member<Path..., Member>(scene); };
-    registry_.keys.push_back(
-        {std::string(path_) + "." + std::string(name), unit, range, std::move(allowed), doc, source, field});
-    return *this;
-  }
-
-  Registry& registry_;
-  std::string_view path_;
-};
 
 constexpr Range from(double low, double high) {
   return {low, high, false, false};
@@ -128,29 +53,55 @@ void add_setting(Registry& r) {
   using T = TerrainSection;
   Rows<&Scene::terrain>(r, "terrain", "the ground")
       .words<&T::shape>("shape", {"slope", "bumps", "cliff", "polyline"}, "kind of ground", "Figs. 9, 12")
+      .with("shape", {"slope", "bumps", "cliff"})
       .number<&T::start>("start", "m", position, "upper left end of the slope (x, z)")
       .number<&T::angle>("angle", "rad", between(0, right_angle), "of the slope, downhill to the right")
       .number<&T::drop>("drop", "m", extent, "height of the whole slope from start to its foot")
       .number<&T::runout_angle>("runout_angle", "rad", between(-right_angle, right_angle),
                                 "of the ground beyond the foot")
       .number<&T::transition_radius>("transition_radius", "m", from(0, 1e5), "of the arc between slope and run-out")
-      .number<&T::bump_height>("bump_height", "m", from(0, 1000), "crest to trough (bumps)")
-      .number<&T::bump_length>("bump_length", "m", extent, "wavelength along the slope (bumps)")
-      .number<&T::cliff_at>("cliff_at", "m", extent, "drop from start at which the cliff begins (cliff)")
-      .number<&T::cliff_height>("cliff_height", "m", extent, "height of the cliff (cliff)")
-      .number<&T::points>("points", "m", position, "vertices (x, z) from left to right (polyline)");
+      .with("shape", {"bumps"})
+      .number<&T::bump_height>("bump_height", "m", from(0, 1000), "crest to trough")
+      .number<&T::bump_length>("bump_length", "m", extent, "wavelength along the slope")
+      .with("shape", {"cliff"})
+      .number<&T::cliff_at>("cliff_at", "m", extent, "drop from start at which the cliff begins")
+      .number<&T::cliff_height>("cliff_height", "m", extent, "height of the cliff")
+      .with("shape", {"polyline"})
+      .number<&T::points>("points", "m", position, "vertices (x, z) from left to right")
+      .plain<&T::file>("file", "text file of such vertices, one a line; its path is seen from the scene file");
+
+  using B = ObstacleSection;
+  Rows<&Scene::obstacle>(r, "obstacle", "a solid box, for snow and air; there may be several")
+      .number<&B::lower>("lower", "m", position, "lower corner")
+      .number<&B::upper>("upper", "m", position, "upper corner");
 }
 
 void add_snow(Registry& r) {
   using R = ReleaseSection;
-  Rows<&Scene::release>(r, "release", "snow let go at the start")
-      .words<&R::shape>("shape", {"slab", "box"}, "slab: lies on the ground or the cover; box: an axis-aligned box")
-      .number<&R::at>("at", "m", from(0, 1e6), "way along the ground to the slab's upper end (slab)")
-      .number<&R::length>("length", "m", extent, "of the slab along the ground (slab)")
-      .number<&R::thickness>("thickness", "m", above(0, 1000), "of the slab, normal to the ground (slab)")
-      .number<&R::lower>("lower", "m", position, "lower corner (box)")
-      .number<&R::upper>("upper", "m", position, "upper corner (box)")
-      .number<&R::velocity>("velocity", "m/s", speed, "initial velocity; default 0");
+  Rows<&Scene::release>(r, "release", "snow let go at the start; there may be several")
+      .words<&R::shape>(
+          "shape", {"slab", "box", "ball", "polygon"},
+          "slab: lies on the ground or the cover; polygon: in the x-z plane, in 3D over the whole breadth")
+      .number<&R::density>("density", "kg/m^3", from(0, 1e5), "0: that of the dense flow")
+      .with("shape", {"slab"})
+      .number<&R::at>("at", "m", from(0, 1e6), "way along the ground to the slab's upper end")
+      .number<&R::length>("length", "m", extent, "of the slab along the ground")
+      .number<&R::thickness>("thickness", "m", above(0, 1000), "of the slab, normal to the ground")
+      .number<&R::layers>("layers", "", from(0, 1e6), "of particles, in place of a thickness; 0: by the thickness")
+      .with("shape", {"box"})
+      .number<&R::lower>("lower", "m", position, "lower corner")
+      .number<&R::upper>("upper", "m", position, "upper corner")
+      .with("shape", {"ball"})
+      .number<&R::center>("center", "m", position, "middle of the ball")
+      .number<&R::radius>("radius", "m", extent, "of the ball")
+      .with("shape", {"polygon"})
+      .number<&R::points>("points", "m", position, "corners (x, z) one after the other")
+      .always()
+      .number<&R::velocity>("velocity", "m/s", speed, "initial velocity; default 0")
+      .number<&R::shear>("shear", "1/s", from(-1e6, 1e6),
+                         "growth of the velocity along x with height over the lowest snow")
+      .number<&R::rotation>("rotation", "1/s", from(-1e6, 1e6),
+                            "initial angular velocity about the snow's middle; positive turns x towards z");
 
   using F = DenseFlowSection;
   Rows<&Scene::dense_flow>(r, "dense_flow", "the flowing snow, as particles")
@@ -160,13 +111,15 @@ void add_snow(Registry& r) {
       .number<&F::viscosity>("viscosity", "Pa s", from(0, 1e6), "mu, of the flowing snow", "Eq. (2)")
       .words<&F::wall>("wall", {"slip", "no_slip"},
                        "viscous stress at walls: none, or as at a wall that holds the snow")
-      .number<&F::density_tolerance>("density_tolerance", "", between(0, 1), "mean compression allowed (dfsph)")
-      .number<&F::divergence_tolerance>("divergence_tolerance", "", above(0, 1000),
-                                        "mean rate of compression allowed (dfsph)")
-      .number<&F::max_iterations>("max_iterations", "", iterations, "of each pressure solve (dfsph)")
       .number<&F::cfl>("cfl", "", above(0, 1), "largest way of a particle in a step, in spacings")
+      .with("solver", {"dfsph"})
+      .number<&F::density_tolerance>("density_tolerance", "", between(0, 1), "mean compression allowed")
+      .number<&F::divergence_tolerance>("divergence_tolerance", "", above(0, 1000), "mean rate of compression allowed")
+      .number<&F::max_iterations>("max_iterations", "", iterations, "of each pressure solve")
+      .with("solver", {"wcsph"})
       .number<&F::sound_speed>("sound_speed", "m/s", from(0, 1e5),
-                               "of the equation of state (wcsph); 0: ten times the largest speed expected")
+                               "of the equation of state; 0: ten times the largest speed expected")
+      .always()
       .number<&F::friction_mu>("friction_mu", "", from(0, 10), "Coulomb coefficient at ground and cover", "R18")
       .number<&F::friction_xi>("friction_xi", "m/s^2", from(0, 1e9), "Voellmy coefficient; 0: no turbulent part", "R18")
       .words<&F::friction_acts_on>("friction_acts_on", {"column", "base", "none"}, "which particles feel it", "R18")
@@ -189,6 +142,11 @@ void add_smoke(Registry& r) {
       .number<&U::air_density>("air_density", "kg/m^3", above(0, 1e4), "rho_air", "Eq. (7)")
       .words<&U::scheme>("scheme", {"maccormack", "semi_lagrangian"}, "of the air's advection", "Eq. (2)")
       .number<&U::viscosity>("viscosity", "m^2/s", from(0, 1e6), "kinematic, of the air", "Eq. (2)")
+      .words<&U::wall>("wall", {"slip", "no_slip"},
+                       "viscous stress at closed sides of the domain: none, or as at a wall")
+      .with("wall", {"no_slip"})
+      .number<&U::lid>("lid", "m/s", speed, "velocity of the closed top, along itself; default 0")
+      .always()
       .number<&U::diffusivity>("diffusivity", "m^2/s", from(0, 1e6), "of the smoke", "R19")
       .number<&U::settling_speed>("settling_speed", "m/s", from(0, 1000), "of the smoke; 0: off", "R19")
       .number<&U::cfl>("cfl", "", above(0, 100), "largest way of the air in a step, in cells")
@@ -198,6 +156,17 @@ void add_smoke(Registry& r) {
       .plain<&U::moving_core>("moving_core", "the dense core pushes the air aside; false: the paper's rule", "R10");
   Rows<&Scene::suspension, &U::confinement>(r, "suspension.confinement", "vorticity confinement: keeps swirls alive")
       .number<&ConfinementSection::strength>("strength", "", from(0, 100), "epsilon", "Eq. (8)");
+
+  using M = SmokeSection;
+  Rows<&Scene::smoke>(r, "smoke", "snow smoke in the air at the start; there may be several")
+      .words<&M::shape>("shape", {"box", "ball"}, "what it fills")
+      .number<&M::density>("density", "kg/m^3", above(0, 1e4), "rho_smoke", "Eq. (7)")
+      .with("shape", {"box"})
+      .number<&M::lower>("lower", "m", position, "lower corner")
+      .number<&M::upper>("upper", "m", position, "upper corner")
+      .with("shape", {"ball"})
+      .number<&M::center>("center", "m", position, "middle of the ball")
+      .number<&M::radius>("radius", "m", extent, "of the ball");
 
   using X = CouplingSection;
   Rows<&Scene::coupling>(r, "coupling", "what dense flow and smoke exchange where they overlap")
@@ -240,7 +209,9 @@ void add_rest(Registry& r) {
       .plain<&O::particles>("particles", "write the particles of each frame")
       .plain<&O::smoke>("smoke", "write the smoke of each frame")
       .plain<&O::preview>("preview", "draw a picture of each frame")
-      .number<&O::preview_width>("preview_width", "", from(16, 16384), "of the pictures, in pixels");
+      .number<&O::preview_width>("preview_width", "", from(16, 16384), "of the pictures, in pixels")
+      .number<&O::opaque_smoke>("opaque_smoke", "kg/m^3", above(0, 1e4),
+                                "smoke that hides 63 % of what is behind it in the pictures");
 }
 
 const Registry& registry() {
@@ -285,6 +256,21 @@ const Section* find_section(std::string_view path) {
 }
 const Key* find_key(std::string_view path) {
   return find(keys(), path);
+}
+
+bool applies(const Key& key, Scene& scene, std::size_t index) {
+  if (scene.scene.dim == 2 && (key.path == "domain.front" || key.path == "domain.back")) return false;
+  if (key.condition.name.empty()) return true;
+  const Key& word = *find_key(fmt::format("{}.{}", key.section(), key.condition.name));
+  const std::string& value = *std::get<std::string*>(word.field(scene, index));
+  return std::find(key.condition.values.begin(), key.condition.values.end(), value) != key.condition.values.end();
+}
+
+std::string numbered(std::string_view section, std::size_t index, std::size_t count) {
+  return count > 1 ? fmt::format("{}[{}]", section, index) : std::string(section);
+}
+std::string numbered(const Key& key, std::size_t index, std::size_t count) {
+  return fmt::format("{}.{}", numbered(key.section(), index, count), key.name());
 }
 
 Scene complete_scene(std::string_view preset) {

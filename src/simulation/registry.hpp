@@ -23,11 +23,20 @@ struct Range {
   bool below_high = false;  ///< high itself is not allowed
 };
 
+/// That a word of the same section has one of some values.
+struct Condition {
+  std::string_view name;                 ///< "shape"; empty: no condition
+  std::vector<std::string_view> values;  ///< "box", "ball"
+};
+
 struct Section {
   std::string_view path;  ///< "coupling.drag"
   std::string_view doc;
-  bool (*exists)(const Scene&);
-  void (*create)(Scene&);  ///< with its defaults, where it does not exist yet; and what it is part of
+  bool repeats;  ///< there may be several: [[release]]
+  std::size_t (*count)(const Scene&);
+  void (*create)(Scene&);  ///< one more where it repeats; else where it does not exist yet, with what it is part of
+
+  bool exists(const Scene& scene) const { return count(scene) > 0; }
 };
 
 struct Key {
@@ -37,7 +46,11 @@ struct Key {
   std::vector<std::string_view> words;  ///< the strings allowed; empty: any
   std::string_view doc;
   std::string_view source;  ///< of the paper or of docs/departures
-  Slot (*field)(Scene&);    ///< precondition: the section exists
+  Condition condition;      ///< with which it means something
+  Slot (*slot)(Scene&, std::size_t);
+
+  /// Precondition: the section exists, and has more than `index` of its kind.
+  Slot field(Scene& scene, std::size_t index = 0) const { return slot(scene, index); }
 
   std::string_view section() const { return std::string_view(path).substr(0, path.rfind('.')); }
   std::string_view name() const { return std::string_view(path).substr(path.rfind('.') + 1); }
@@ -51,7 +64,15 @@ const std::vector<Key>& keys();
 const Section* find_section(std::string_view path);
 const Key* find_key(std::string_view path);
 
-/// A scene with every section, at the defaults of `preset`.
+/// Whether the key means something there: its condition holds, and 2D scenes have no front and back.
+bool applies(const Key& key, Scene& scene, std::size_t index);
+
+/// What one of `count` sections of the same kind is called: "release", or "release[1]" of several.
+std::string numbered(std::string_view section, std::size_t index, std::size_t count);
+/// The same for one of its keys: "release[1].thickness".
+std::string numbered(const Key& key, std::size_t index, std::size_t count);
+
+/// A scene with every section, once, at the defaults of `preset`.
 Scene complete_scene(std::string_view preset);
 
 }  // namespace spindrift

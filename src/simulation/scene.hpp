@@ -1,7 +1,7 @@
 #pragma once
-/// Every parameter of a run, in SI units and radians. A section that the scene file does not name is an empty optional:
-/// its physics does not exist. The values here are the preset "physical"; names, units, ranges and docs of the keys
-/// stand in registry.cpp.
+/// Every parameter of a run, in SI units and radians. A section that the scene file does not name is an empty optional,
+/// or an empty list where there may be several of its kind: its physics does not exist. The values here are the preset
+/// "physical"; names, units, ranges and docs of the keys stand in registry.cpp.
 
 #include <array>
 #include <cstdint>
@@ -39,16 +39,38 @@ struct TerrainSection {
   double cliff_at = 20;                       ///< drop from start at which the cliff begins [m] (cliff)
   double cliff_height = 20;                   ///< [m] (cliff)
   std::vector<std::array<double, 2>> points;  ///< vertices (x, z) [m] (polyline)
+  std::string file;                           ///< that the points come from; empty once they are read
+};
+
+/// Something solid: an axis-aligned box.
+struct ObstacleSection {
+  std::vector<double> lower, upper;  ///< corners [m]
 };
 
 /// Snow released at the start, on a lattice of the particle spacing.
 struct ReleaseSection {
-  std::string shape = "slab";        ///< "slab": lies on the ground or cover | "box": an axis-aligned box
-  double at = 5;                     ///< arc length along the ground of the slab's upper end [m]
-  double length = 5;                 ///< of the slab along the ground [m]
-  double thickness = 2;              ///< of the slab, normal to the ground [m]
+  std::string shape = "slab";                 ///< "slab": lies on the ground or cover | "box" | "ball" | "polygon"
+  double density = 0;                         ///< [kg m^-3]; 0: the dense flow's
+  double at = 5;                              ///< arc length along the ground of the slab's upper end [m]
+  double length = 5;                          ///< of the slab along the ground [m]
+  double thickness = 2;                       ///< of the slab, normal to the ground [m]
+  int layers = 0;                             ///< of particles, in place of a thickness; 0 once it is told
+  std::vector<double> lower, upper;           ///< corners of the box [m]
+  std::vector<double> center;                 ///< of the ball [m]
+  double radius = 1;                          ///< of the ball [m]
+  std::vector<std::array<double, 2>> points;  ///< corners (x, z) of the polygon [m]
+  std::vector<double> velocity;               ///< initial velocity [m s^-1], default 0
+  double shear = 0;     ///< growth of the velocity along x with height over the snow's foot [s^-1]
+  double rotation = 0;  ///< angular velocity about the snow's middle, from x to z [s^-1]
+};
+
+/// Smoke in the air at the start.
+struct SmokeSection {
+  std::string shape = "box";         ///< "box" | "ball"
+  double density = 3;                ///< rho_smoke [kg m^-3]
   std::vector<double> lower, upper;  ///< corners of the box [m]
-  std::vector<double> velocity;      ///< initial velocity [m s^-1], default 0
+  std::vector<double> center;        ///< of the ball [m]
+  double radius = 1;                 ///< of the ball [m]
 };
 
 struct DenseFlowSection {
@@ -84,6 +106,8 @@ struct SuspensionSection {
   double air_density = 1.2;           ///< [kg m^-3]
   std::string scheme = "maccormack";  ///< "semi_lagrangian" | "maccormack"
   double viscosity = 0;               ///< kinematic, of the air [m^2 s^-1]
+  std::string wall = "slip";          ///< "slip" | "no_slip": of the viscous stress at closed sides
+  std::vector<double> lid;            ///< velocity of the closed top [m s^-1] (no_slip), default 0
   double diffusivity = 0;             ///< of smoke [m^2 s^-1]
   double settling_speed = 0.5;        ///< of smoke [m s^-1]; 0: off (R19)
   double cfl = 1;                     ///< of the cell size
@@ -134,16 +158,19 @@ struct OutputSection {
   bool particles = true, smoke = true;
   bool preview = true;
   int preview_width = 1380;  ///< [px]
+  double opaque_smoke = 1;   ///< density that hides 63 % of what is behind it in the pictures [kg m^-3]
 };
 
 struct Scene {
   SceneSection scene;
   DomainSection domain;
   std::optional<TerrainSection> terrain;
-  std::optional<ReleaseSection> release;
+  std::vector<ObstacleSection> obstacle;
+  std::vector<ReleaseSection> release;
   std::optional<DenseFlowSection> dense_flow;
   std::optional<CoverSection> cover;
   std::optional<SuspensionSection> suspension;
+  std::vector<SmokeSection> smoke;
   std::optional<CouplingSection> coupling;
   std::optional<EntrainmentSection> entrainment;
   OutputSection output;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
+#include "simulation/registry.hpp"
 #include "simulation/units.hpp"
 
 namespace spindrift {
@@ -21,7 +23,15 @@ class Checker {
     sections();
     corners("domain", scene_.domain.lower, scene_.domain.upper);
     if (scene_.terrain) ground(*scene_.terrain);
-    if (scene_.release) release(*scene_.release);
+    for (std::size_t i = 0; i < scene_.obstacle.size(); ++i) {
+      const std::string section = numbered("obstacle", i, scene_.obstacle.size());
+      corners(section, scene_.obstacle[i].lower, scene_.obstacle[i].upper);
+    }
+    for (std::size_t i = 0; i < scene_.release.size(); ++i)
+      release(numbered("release", i, scene_.release.size()), scene_.release[i]);
+    for (std::size_t i = 0; i < scene_.smoke.size(); ++i)
+      box_or_ball(numbered("smoke", i, scene_.smoke.size()), scene_.smoke[i]);
+    if (scene_.suspension) lid(*scene_.suspension);
     if (scene_.cover && scene_.cover->to >= 0)
       ordered("cover.from", scene_.cover->from, "cover.to", scene_.cover->to, true);
     if (scene_.entrainment)
@@ -46,7 +56,8 @@ class Checker {
   }
 
   void sections() {
-    need(scene_.release.has_value(), "release", scene_.dense_flow.has_value(), "dense_flow");
+    need(!scene_.release.empty(), "release", scene_.dense_flow.has_value(), "dense_flow");
+    need(!scene_.smoke.empty(), "smoke", scene_.suspension.has_value(), "suspension");
     need(scene_.cover.has_value(), "cover", scene_.terrain.has_value(), "terrain");
     need(scene_.cover.has_value(), "cover", scene_.dense_flow.has_value(), "dense_flow");
     need(scene_.coupling.has_value(), "coupling", scene_.dense_flow.has_value(), "dense_flow");
@@ -74,23 +85,67 @@ class Checker {
     return report_.good({low, high});
   }
 
-  void release(const ReleaseSection& release) {
-    if (!report_.good({"release.shape"})) return;
+  void release(const std::string& section, const ReleaseSection& release) {
+    const std::string shape = section + ".shape", points = section + ".points";
+    if (!report_.good({shape})) return;
     if (release.shape == "slab") {
       if (!scene_.terrain && report_.good({"terrain"}))
-        add("release.shape", "\"slab\" needs the section [terrain], which the scene does not have");
-      return;
+        add(shape, "\"slab\" needs the section [terrain], which the scene does not have");
+    } else if (release.shape == "polygon") {
+      if (report_.good({points}) && release.points.size() < 3)
+        add(points, fmt::format("got {} points, expected at least 3 (x, z)", release.points.size()));
+      for (const auto& [x, z] : release.points) inside_domain(points, {x, z}, {x, z}, {0, dim() - 1});
+    } else {
+      box_or_ball(section, release);
     }
-    if (!corners("release", release.lower, release.upper) || !report_.good({"domain.lower", "domain.upper"})) return;
-    for (std::size_t k = 0; k < release.lower.size(); ++k) {
-      if (release.lower[k] < scene_.domain.lower[k]) outside("release.lower", release.lower[k], "domain.lower", k);
-      if (release.upper[k] > scene_.domain.upper[k]) outside("release.upper", release.upper[k], "domain.upper", k);
+  }
+
+  template <class Shaped>
+  void box_or_ball(const std::string& section, const Shaped& shaped) {
+    const std::string low = section + ".lower", high = section + ".upper", center = section + ".center";
+    if (!report_.good({section + ".shape", "scene.dim"})) return;
+    std::vector<std::size_t> axes(dim());
+    std::iota(axes.begin(), axes.end(), std::size_t{0});
+    if (shaped.shape == "box") {
+      if (!corners(section, shaped.lower, shaped.upper)) return;
+      inside_domain(low, shaped.lower, shaped.lower, axes);
+      inside_domain(high, shaped.upper, shaped.upper, axes);
+    } else if (shaped.center.empty()) {
+      if (report_.good({center})) add(center, fmt::format("missing, expected a list of {} lengths", dim()));
+    } else {
+      std::vector<double> least = shaped.center, most = shaped.center;
+      for (double& x : least) x -= shaped.radius;
+      for (double& x : most) x += shaped.radius;
+      if (report_.good({section + ".radius"})) inside_domain(center, least, most, axes);
+    }
+  }
+
+  /// The extent of something lies in the domain, whose axis axes[k] is its k-th; says so if not.
+  void inside_domain(const std::string& path, const std::vector<double>& least, const std::vector<double>& most,
+                     const std::vector<std::size_t>& axes) {
+    if (!report_.good({path, "domain.lower", "domain.upper", "scene.dim"})) return;
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      const std::size_t a = axes[k];
+      if (least[k] < scene_.domain.lower[a]) outside(path, least[k], "domain.lower", a);
+      if (most[k] > scene_.domain.upper[a]) outside(path, most[k], "domain.upper", a);
     }
   }
 
   void outside(std::string_view path, double value, std::string_view bound, std::size_t k) {
-    add(path, fmt::format("got {} along {}, expected a box inside the domain, whose {} stands at {}",
+    add(path, fmt::format("reaches {} along {}, expected it inside the domain, whose {} stands at {}",
                           number_text(value), axis(k), bound, report_.text_of(place_of(places_, bound))));
+  }
+
+  void lid(const SuspensionSection& suspension) {
+    if (!report_.good({"suspension.lid", "suspension.wall", "domain.top"})) return;
+    const std::vector<double>& lid = suspension.lid;
+    if (std::all_of(lid.begin(), lid.end(), [](double x) { return x == 0; })) return;
+    if (lid.back() != 0)
+      add("suspension.lid",
+          fmt::format("got {} along z, expected 0: a lid moves along itself", number_text(lid.back())));
+    if (scene_.domain.top != "closed")
+      add("suspension.lid", fmt::format("contradicts domain.top = \"{}\" at {}: a lid closes the top",
+                                        scene_.domain.top, report_.text_of(place_of(places_, "domain.top"))));
   }
 
   void ground(const TerrainSection& terrain) {
@@ -140,6 +195,7 @@ class Checker {
     if (scene_.dense_flow) fits("dense_flow.support_radius", scene_.dense_flow->support_radius);
   }
 
+  std::size_t dim() const { return static_cast<std::size_t>(scene_.scene.dim); }
   std::string_view axis(std::size_t k) const { return axis_names[scene_.scene.dim - 2][k]; }
   void add(std::string_view path, std::string_view what) { report_.add(place_of(places_, path), path, what); }
 

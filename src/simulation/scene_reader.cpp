@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/error.hpp"
+#include "io/point_file.hpp"
 #include "simulation/registry.hpp"
 #include "simulation/scene_checks.hpp"
 #include "simulation/scene_report.hpp"
@@ -22,6 +24,8 @@ constexpr int schema_version = 1;
 /// A key that the file sets, with what it sets it to.
 struct Entry {
   const Key* key;
+  std::size_t index;  ///< of its section, where that repeats
+  std::string path;
   const TomlValue* literal;
 };
 
@@ -29,15 +33,17 @@ class Reader {
  public:
   Reader(TomlTable document, const std::string& file) : document_(std::move(document)), report_(file) {}
 
-  Scene read(const std::string& default_name) {
+  Scene read(const std::string& default_name, const std::filesystem::path& folder) {
     check_version();
     for (const TomlMember& member : document_)
-      if (member.name != "schema_version") visit(member, member.name);
+      if (member.name != "schema_version") visit(member, {member.name, member.name, 0});
     if (!places_.contains("domain") && report_.good({"domain"}))
       report_.add({}, "domain", "missing, expected a section [domain]");
     assign_if([](const Key& key) { return key.section() == "scene"; });
     take_defaults();
     assign_if([](const Key& key) { return key.section() != "scene"; });
+    read_terrain_file(folder);
+    count_layers();
     derive(default_name);
     check_scene(scene_, places_, report_);
     report_.throw_if_bad();
@@ -46,7 +52,7 @@ class Reader {
 
   Origins origins() const {
     Origins all;
-    for (const Entry& entry : entries_) all[entry.key->path] = report_.text_of(entry.literal->place);
+    for (const auto& [path, place] : places_) all[path] = report_.text_of(place);
     return all;
   }
 
@@ -63,7 +69,8 @@ class Reader {
     const std::string_view path = trim(view.substr(0, equals));
     constexpr std::ptrdiff_t deepest = 2;  // coupling.drag.constant
     if (std::count(path.begin(), path.end(), '.') > deepest) return report_.add({0, 0}, path, "unknown key");
-    set_member(document_, path, trim(view.substr(equals + 1)));
+    const auto wrong = set_member(document_, path, trim(view.substr(equals + 1)));
+    if (wrong) report_.add({0, 0}, path, *wrong);
   }
 
  private:
@@ -79,25 +86,43 @@ class Reader {
     report_.add({}, "schema_version", fmt::format("missing, expected schema_version = {} at the top", schema_version));
   }
 
-  void visit(const TomlMember& member, const std::string& path) {
+  /// A name on its way through the document.
+  struct Path {
+    std::string known;  ///< as the registry has it: "release.shape"
+    std::string shown;  ///< as the user reads it: "release[1].shape"
+    std::size_t index;  ///< of the section, where that repeats
+
+    Path operator/(const std::string& name) const { return {known + "." + name, shown + "." + name, index}; }
+  };
+
+  void visit(const TomlMember& member, const Path& path) {
     const TomlValue& literal = member.value[0];
-    const auto* table = std::get_if<TomlTable>(&literal.value);
-    if (const Key* key = find_key(path)) {
-      places_[path] = literal.place;
-      entries_.push_back({key, &literal});
-    } else if (const Section* section = find_section(path)) {
-      places_[path] = member.place;
-      if (table == nullptr)
-        return report_.add(literal.place, path, fmt::format("got {}, expected a section [{}]", text_of(literal), path));
-      section->create(scene_);
-      for (const TomlMember& inner : *table) visit(inner, path + "." + inner.name);
+    if (const Key* key = find_key(path.known)) {
+      places_[path.shown] = literal.place;
+      entries_.push_back({key, path.index, path.shown, &literal});
+    } else if (const Section* section = find_section(path.known)) {
+      const auto* list = std::get_if<TomlList>(&literal.value);
+      if (!section->repeats || list == nullptr) return enter(*section, literal, member.place, path);
+      for (std::size_t i = 0; i < list->size(); ++i)
+        enter(*section, (*list)[i], (*list)[i].place, {path.known, numbered(section->path, i, list->size()), i});
     } else {
-      unknown(member.place, path, table != nullptr);
+      unknown(member.place, path, std::holds_alternative<TomlTable>(literal.value));
     }
   }
 
+  void enter(const Section& section, const TomlValue& literal, const Place& place, const Path& path) {
+    places_[path.shown] = place;
+    section.create(scene_);
+    const auto* table = std::get_if<TomlTable>(&literal.value);
+    if (table == nullptr)
+      return report_.add(literal.place, path.shown,
+                         fmt::format("got {}, expected a section [{}]", text_of(literal), section.path));
+    for (const TomlMember& inner : *table) visit(inner, path / inner.name);
+  }
+
   /// Suggests, in this order: a key of the same section, the same key of another section, the nearest whole path.
-  void unknown(const Place& place, const std::string& path, bool is_section) {
+  void unknown(const Place& place, const Path& at, bool is_section) {
+    const std::string& path = at.known;
     std::vector<std::string_view> paths, siblings;
     const std::size_t dot = path.rfind('.');
     const std::string section = dot == std::string::npos ? "" : path.substr(0, dot);
@@ -116,15 +141,16 @@ class Reader {
     report_.suspect(meant ? fmt::format("{}.{}", section, *meant) : std::string());
     if (!meant) meant = elsewhere;
     if (!meant && (meant = nearest(path, paths))) report_.suspect(*meant);
-    report_.add(place, path, fmt::format("unknown {}{}", is_section ? "section" : "key", did_you_mean(meant)));
+    report_.add(place, at.shown, fmt::format("unknown {}{}", is_section ? "section" : "key", did_you_mean(meant)));
   }
 
   template <class Chosen>
   void assign_if(Chosen chosen) {
     for (const Entry& entry : entries_) {
       if (!chosen(*entry.key)) continue;
-      const bool needs_dim = std::holds_alternative<std::vector<double>*>(entry.key->field(scene_));
-      if (!needs_dim || report_.good({"scene.dim"})) assign(scene_, *entry.key, *entry.literal, report_);
+      const bool needs_dim = std::holds_alternative<std::vector<double>*>(entry.key->field(scene_, entry.index));
+      if (!needs_dim || report_.good({"scene.dim"}))
+        assign(scene_, *entry.key, entry.index, *entry.literal, entry.path, report_);
     }
   }
 
@@ -132,8 +158,44 @@ class Reader {
   void take_defaults() {
     Scene preset = complete_scene(scene_.scene.preset);
     for (const Key& key : keys()) {
-      if (key.section() == "scene" || !find_section(key.section())->exists(scene_)) continue;
-      std::visit([&](auto* to) { *to = *std::get<decltype(to)>(key.field(preset)); }, key.field(scene_));
+      if (key.section() == "scene") continue;
+      for (std::size_t i = 0; i < find_section(key.section())->count(scene_); ++i)
+        std::visit([&](auto* to) { *to = *std::get<decltype(to)>(key.field(preset)); }, key.field(scene_, i));
+    }
+  }
+
+  /// Puts the thickness of slabs that are told by their layers into release.thickness.
+  void count_layers() {
+    if (!scene_.dense_flow || !report_.good({"dense_flow.support_radius"})) return;
+    for (std::size_t i = 0; i < scene_.release.size(); ++i) {
+      const std::string section = numbered("release", i, scene_.release.size());
+      const std::string path = section + ".layers", thickness = section + ".thickness";
+      const int layers = std::exchange(scene_.release[i].layers, 0);
+      if (layers == 0 || !report_.good({path, thickness})) continue;
+      if (places_.contains(thickness)) {
+        contradict(path, thickness);
+      } else {
+        scene_.release[i].thickness = layers * scene_.dense_flow->support_radius / 2;
+      }
+    }
+  }
+
+  /// Two keys that say the same thing.
+  void contradict(const std::string& path, const std::string& other) {
+    report_.add(place_of(places_, path), path,
+                fmt::format("contradicts {} at {}: leave out one", other, report_.text_of(place_of(places_, other))));
+  }
+
+  /// Puts the points of terrain.file into terrain.points, so that a scene does not depend on other files any more.
+  void read_terrain_file(const std::filesystem::path& folder) {
+    constexpr std::string_view path = "terrain.file";
+    if (!scene_.terrain || scene_.terrain->file.empty() || !report_.good({path, "terrain.points"})) return;
+    if (places_.contains("terrain.points")) return contradict(std::string(path), "terrain.points");
+    const std::filesystem::path file = folder / std::exchange(scene_.terrain->file, {});
+    try {
+      scene_.terrain->points = read_points(file);
+    } catch (const PointFileError& error) {
+      report_.add(place_of(places_, path), path, error.what());
     }
   }
 
@@ -145,8 +207,12 @@ class Reader {
       scene_.domain.gravity.assign(dim, 0.0);
       scene_.domain.gravity.back() = -9.81;
     }
-    if (scene_.release && scene_.release->velocity.empty()) scene_.release->velocity.assign(dim, 0.0);
-    if (scene_.suspension && scene_.suspension->wind.empty()) scene_.suspension->wind.assign(dim, 0.0);
+    const auto zero_unless_said = [dim](std::vector<double>& vector) {
+      if (vector.empty()) vector.assign(dim, 0.0);
+    };
+    for (ReleaseSection& release : scene_.release) zero_unless_said(release.velocity);
+    if (scene_.suspension) zero_unless_said(scene_.suspension->wind);
+    if (scene_.suspension) zero_unless_said(scene_.suspension->lid);
   }
 
   TomlTable document_;
@@ -179,13 +245,13 @@ Scene parse_scene(std::string_view text, const std::string& file, const std::vec
     refuse(fmt::format("{}:{}:{}", file, error.place.line, error.place.column), error.why);
   }
   for (const std::string& setting : settings) reader->apply(setting);
-  const Scene scene = reader->read(name_from(file));
+  const Scene scene = reader->read(name_from(file), std::filesystem::path(file).parent_path());
   if (origins != nullptr) *origins = reader->origins();
   return scene;
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Origins* origins) {
-  constexpr std::size_t most = 64 * 1024;
+  constexpr std::size_t most = 4 * 1024 * 1024;
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) refuse(file.string(), "there is no such file");
@@ -194,7 +260,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (!stream) refuse(file.string(), "cannot be opened for reading");
   std::string text(most + 1, '\0');
   text.resize(std::fread(text.data(), 1, text.size(), stream.get()));
-  if (text.size() > most) refuse(file.string(), "longer than the 64 kB that a scene may have");
+  if (text.size() > most) refuse(file.string(), "longer than the 4 MB that a scene may have");
   if (std::ferror(stream.get()) != 0) refuse(file.string(), "cannot be read");
   return parse_scene(text, file.string(), settings, origins);
 }

@@ -11,7 +11,7 @@
 
 namespace spindrift {
 
-/// Where values were set, by the paths of their keys: "my.toml:12:9" or "--set".
+/// Where sections begin and values were set, by their paths: "my.toml:12:9" or "--set".
 using Origins = std::map<std::string, std::string, std::less<>>;
 
 /// settings  "key=value" from the command line, in order, each overriding the file and those before it
@@ -21,7 +21,7 @@ using Origins = std::map<std::string, std::string, std::less<>>;
 Scene parse_scene(std::string_view text, const std::string& file, const std::vector<std::string>& settings = {},
                   Origins* origins = nullptr);
 
-/// The same from a regular file of at most 64 kB.
+/// The same from a regular file of at most 4 MB.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings = {},
                  Origins* origins = nullptr);
 

@@ -1,6 +1,7 @@
 #include "simulation/scene_schema.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,8 @@ using Json = nlohmann::ordered_json;
 std::string description(const Key& key) {
   std::string text(key.doc);
   if (!key.unit.empty()) text += fmt::format(" [{}]", key.unit);
+  if (!key.condition.name.empty())
+    text += fmt::format(" ({}: {})", key.condition.name, fmt::join(key.condition.values, ", "));
   if (!key.source.empty()) text += fmt::format(" ({})", key.source);
   return text;
 }
@@ -82,14 +85,23 @@ std::string scene_schema() {
     const std::size_t dot = section.path.rfind('.');
     const std::string_view parent = dot == std::string_view::npos ? "" : section.path.substr(0, dot);
     const std::string_view name = dot == std::string_view::npos ? section.path : section.path.substr(dot + 1);
-    properties_at(root, parent)[std::string(name)] = object_schema(section.doc);
+    Json schema = object_schema(section.doc);
+    if (section.repeats) schema["type"] = {"object", "array"};
+    properties_at(root, parent)[std::string(name)] = schema;
   }
   for (const Key& key : keys()) {
     const Slot field = key.field(scene);
     Json property = {{"description", description(key)}};
     property.update(std::visit(TypeOf{key}, field));
-    if (has_value(key, field, 3)) property["default"] = default_of(field);
+    if (has_value(field)) property["default"] = default_of(field);
     properties_at(root, key.section())[std::string(key.name())] = property;
+  }
+  for (const Section& section : sections()) {
+    if (!section.repeats) continue;
+    Json& several = root["properties"][std::string(section.path)];
+    Json one = several;
+    one["type"] = "object";
+    several["items"] = one;
   }
   return root.dump(2) + "\n";
 }
@@ -98,7 +110,10 @@ std::string described_defaults(std::string_view preset) {
   Scene scene = complete_scene(preset);
   std::string text = "schema_version = 1\n";
   for (const Section& section : sections()) {
-    text += fmt::format("\n[{}]  # {}\n", section.path, section.doc);
+    // What a scene cannot have without saying where stands there as a comment.
+    const Key* lower = find_key(fmt::format("{}.lower", section.path));
+    const bool whole = !section.repeats || lower == nullptr || !applies(*lower, scene, 0);
+    text += fmt::format("\n{}[{}]  # {}\n", whole ? "" : "# ", section.path, section.doc);
     for (const Key& key : keys()) {
       if (key.section() != section.path) continue;
       const Slot field = key.field(scene);
@@ -107,7 +122,7 @@ std::string described_defaults(std::string_view preset) {
       const std::string value =
           key.unit == "rad" ? '"' + degrees_text(*std::get<double*>(field)) + '"' : value_text(field);
       const std::string line =
-          fmt::format("{}{} = {}", has_value(key, field, scene.scene.dim) ? "" : "# ", key.name(), value);
+          fmt::format("{}{} = {}", whole && applies(key, scene, 0) && has_value(field) ? "" : "# ", key.name(), value);
       text += fmt::format("{:<40} # {}{}\n", line, description(key), words.empty() ? "" : ": " + words);
     }
   }

@@ -143,12 +143,13 @@ struct Expectation {
 
 }  // namespace
 
-void assign(Scene& scene, const Key& key, const TomlValue& literal, SceneReport& report) {
+void assign(Scene& scene, const Key& key, std::size_t index, const TomlValue& literal, std::string_view path,
+            SceneReport& report) {
   const Converter convert(key, scene.scene.dim);
   try {
-    std::visit([&](auto* field) { convert(literal, *field); }, key.field(scene));
+    std::visit([&](auto* field) { convert(literal, *field); }, key.field(scene, index));
   } catch (const Refusal& refusal) {
-    report.add(refusal.literal.place, key.path,
+    report.add(refusal.literal.place, path,
                fmt::format("got {}{}, expected {}{}{}", text_of(refusal.literal), refusal.kind, refusal.each,
                            expectation(key), refusal.hint));
   }

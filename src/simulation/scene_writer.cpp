@@ -36,30 +36,36 @@ std::string unit_text(const Key& key, Slot field) {
 }
 
 /// "  # [m], my.toml:12:9"
-std::string comment(const Key& key, Slot field, const Origins* origins) {
+std::string comment(const Key& key, const std::string& path, Slot field, const Origins* origins) {
   std::string text = unit_text(key, field);
   if (origins != nullptr) {
-    const auto origin = origins->find(key.path);
+    const auto origin = origins->find(path);
     text += text.empty() ? "" : ", ";
     text += origin != origins->end() ? origin->second : "default";
   }
   return text.empty() ? "" : "  # " + text;
 }
 
-/// Calls f(key, field) for the keys of `section` that this scene has.
-template <class F>
-void for_each_value(const Section& section, Scene& scene, F&& f) {
-  for (const Key& key : keys()) {
-    if (key.section() != section.path) continue;
-    const Slot field = key.field(scene);
-    if (has_value(key, field, scene.scene.dim)) f(key, field);
+/// Calls begin(section, index, count) for every section that this scene has, one after the other where it repeats, and
+/// value(key, index, count, field) for its keys.
+template <class Begin, class Value>
+void for_each_value(Scene& scene, Begin&& begin, Value&& value) {
+  for (const Section& section : sections()) {
+    const std::size_t count = section.count(scene);
+    for (std::size_t index = 0; index < count; ++index) {
+      begin(section, index, count);
+      for (const Key& key : keys()) {
+        if (key.section() != section.path) continue;
+        const Slot field = key.field(scene, index);
+        if (applies(key, scene, index) && has_value(field)) value(key, index, count, field);
+      }
+    }
   }
 }
 
 }  // namespace
 
-bool has_value(const Key& key, Slot field, int dim) {
-  if (dim == 2 && (key.path == "domain.front" || key.path == "domain.back")) return false;
+bool has_value(Slot field) {
   return std::visit(
       [](const auto* value) {
         if constexpr (requires { value->empty(); }) return !value->empty();
@@ -79,26 +85,29 @@ std::string value_text(Slot field) {
 std::string write_scene(const Scene& scene, const Origins* origins) {
   Scene copy = scene;
   std::string text = "schema_version = 1\n";
-  for (const Section& section : sections()) {
-    if (!section.exists(copy)) continue;
-    text += fmt::format("\n[{}]\n", section.path);
-    for_each_value(section, copy, [&](const Key& key, Slot field) {
-      text += fmt::format("{} = {}{}\n", key.name(), value_text(field), comment(key, field, origins));
-    });
-  }
+  for_each_value(
+      copy,
+      [&](const Section& section, std::size_t, std::size_t count) {
+        text += count > 1 ? fmt::format("\n[[{}]]\n", section.path) : fmt::format("\n[{}]\n", section.path);
+      },
+      [&](const Key& key, std::size_t index, std::size_t count, Slot field) {
+        text += fmt::format("{} = {}{}\n", key.name(), value_text(field),
+                            comment(key, numbered(key, index, count), field, origins));
+      });
   return text;
 }
 
 std::string canonical_scene(const Scene& scene) {
   Scene copy = scene;
   std::string text = "schema_version = 1\n";
-  for (const Section& section : sections()) {
-    if (!section.exists(copy)) continue;
-    text += fmt::format("[{}]\n", section.path);
-    for_each_value(section, copy, [&](const Key& key, Slot field) {
-      if (key.path != "scene.name") text += fmt::format("{} = {}\n", key.path, value_text(field));
-    });
-  }
+  for_each_value(
+      copy,
+      [&](const Section& section, std::size_t index, std::size_t count) {
+        text += fmt::format("[{}]\n", numbered(section.path, index, count));
+      },
+      [&](const Key& key, std::size_t index, std::size_t count, Slot field) {
+        if (key.path != "scene.name") text += fmt::format("{} = {}\n", numbered(key, index, count), value_text(field));
+      });
   return text;
 }
 

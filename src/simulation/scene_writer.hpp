@@ -22,7 +22,7 @@ std::string canonical_scene(const Scene& scene);
 std::string value_text(Slot field);
 /// "38 deg" of an angle in radians, to six digits after the point.
 std::string degrees_text(double angle);
-/// Whether a scene of that dimension says anything there: an empty list or name is no value, nor is a side of 3D in 2D.
-bool has_value(const Key& key, Slot field, int dim);
+/// Whether there is anything to say: an empty list or name is no value.
+bool has_value(Slot field);
 
 }  // namespace spindrift

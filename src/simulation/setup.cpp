@@ -3,24 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
+#include "simulation/release.hpp"
+#include "simulation/scene_vectors.hpp"
 #include "sph/sampling.hpp"
 #include "terrain/profiles.hpp"
 
 namespace spindrift {
 namespace {
-
-template <int Dim>
-Vec<Dim> vector_or(const std::vector<double>& numbers, const Vec<Dim>& otherwise) {
-  if (numbers.empty()) return otherwise;
-  SPINDRIFT_CHECK(numbers.size() == Dim);
-  return Eigen::Map<const Vec<Dim>>(numbers.data());
-}
-
-template <int Dim>
-Box<Dim> box_of(const std::vector<double>& lower, const std::vector<double>& upper) {
-  return {vector_or<Dim>(lower, Vec<Dim>::Zero()), vector_or<Dim>(upper, Vec<Dim>::Zero())};
-}
 
 /// The ground goes on beyond the domain, so that open sides have ground to leave over.
 constexpr double beyond_the_domain = 50;    // [m]
@@ -51,32 +40,6 @@ Side side_of(const std::string& word) {
   return word == "open" ? Side::open : Side::closed;
 }
 
-template <int Dim>
-Breadth breadth_of(const Box<Dim>& domain) {
-  if constexpr (Dim == 3) {
-    return {domain.lower[1], domain.upper[1]};
-  } else {
-    return {};
-  }
-}
-
-template <int Dim>
-Particles<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls, double spacing) {
-  const ReleaseSection& release = *scene.release;
-  SnowKind<Dim> kind;
-  kind.spacing = spacing;
-  kind.density = scene.dense_flow->density;
-  kind.velocity = vector_or<Dim>(release.velocity, Vec<Dim>::Zero());
-  if (release.shape == "box") return sample_box<Dim>(box_of<Dim>(release.lower, release.upper), kind);
-  Slab slab;
-  slab.at = release.at;
-  slab.length = release.length;
-  slab.base = scene.cover ? scene.cover->depth : 0;
-  slab.thickness = release.thickness;
-  slab.y = breadth_of(walls.domain);
-  return sample_slab<Dim>(*walls.terrain, slab, kind);
-}
-
 /// Arc length of the ground at x [m].
 template <int Dim>
 double ground_at(const Walls<Dim>& walls, double x) {
@@ -104,6 +67,8 @@ Walls<Dim> make_walls(const Scene& scene) {
   walls.sides[0] = {side_of(scene.domain.left), side_of(scene.domain.right)};
   if constexpr (Dim == 3) walls.sides[1] = {side_of(scene.domain.front), side_of(scene.domain.back)};
   walls.sides[up_axis<Dim>] = {side_of(scene.domain.bottom), side_of(scene.domain.top)};
+  for (const ObstacleSection& obstacle : scene.obstacle)
+    walls.obstacles.push_back(box_of<Dim>(obstacle.lower, obstacle.upper));
   if (scene.terrain) walls.terrain.emplace(ground_vertices(*scene.terrain, walls.domain.upper[0]));
   return walls;
 }
@@ -124,7 +89,7 @@ std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls
   kind.spacing = scene.dense_flow->support_radius / 2;
   kind.density = scene.cover->density;
   kind.first_id = first_id;
-  return sample_cover<Dim>(*walls.terrain, layer, kind);
+  return sample_cover<Dim>(*walls.terrain, layer, kind, walls.obstacles);
 }
 
 template <int Dim>
@@ -142,7 +107,7 @@ std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Di
   if (options.solver == DenseSolver::wcsph && options.sound_speed == 0)
     options.sound_speed = 10 * std::sqrt(2 * make_gravity<Dim>(scene).norm() * walls.domain.size()[up_axis<Dim>]);
   std::optional<DenseFlow<Dim>> dense(options);
-  if (scene.release) dense->particles = released_snow<Dim>(scene, walls, options.spacing());
+  dense->particles = released_snow<Dim>(scene, walls).particles;
   return dense;
 }
 
@@ -175,6 +140,8 @@ std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<D
   options.air_density = section.air_density;
   options.scheme = section.scheme == "semi_lagrangian" ? AdvectionScheme::semi_lagrangian : AdvectionScheme::maccormack;
   options.viscosity = section.viscosity;
+  options.no_slip = section.wall == "no_slip";
+  options.lid = vector_or<Dim>(section.lid, Vec<Dim>::Zero());
   options.diffusivity = section.diffusivity;
   options.settling_speed = section.settling_speed;
   if (section.confinement) options.confinement = section.confinement->strength;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "simulation/release.hpp"
 #include "simulation/state_check.hpp"
 
 namespace spindrift {
@@ -46,10 +47,11 @@ Simulation<Dim>::Simulation(const Scene& scene)
       coupling_(make_coupling(scene)) {
   cover_ = make_cover<Dim>(scene_, walls_, dense_ ? dense_->particles.size() : 0);
   if (const auto options = make_entrainment(scene_)) entrainment_.emplace(*options);
-  if (suspension_ && walls_.terrain) {
-    ground_.emplace(*walls_.terrain, suspension_->grid(), cover_ ? &*cover_ : nullptr);
+  if (suspension_ && (walls_.terrain || !walls_.obstacles.empty())) {
+    ground_.emplace(walls_, suspension_->grid(), cover_ ? &*cover_ : nullptr);
     suspension_->set_ground(ground_->node_distance());
   }
+  if (suspension_ && !scene_.smoke.empty()) suspension_->set_smoke_mass(initial_smoke<Dim>(scene_, *suspension_));
   if (suspension_ && dense_)
     n_interior_ = interior_number_density<Dim>(dense_->options().spacing(), dense_->options().support_radius);
   n_dense_initial_ = dense_ ? dense_->particles.size() : 0;

@@ -1,6 +1,9 @@
 #include "simulation/toml_document.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 #include <tuple>
 #include <utility>
 
@@ -106,6 +109,22 @@ TomlMember& member_of(TomlTable& table, std::string_view name) {
   return table.back();
 }
 
+struct IndexedName {
+  std::string_view name;
+  std::optional<std::size_t> index;
+};
+
+/// "release[1]" as release, 1.
+IndexedName indexed_name(std::string_view text) {
+  const std::size_t bracket = text.find('[');
+  if (bracket == std::string_view::npos || text.back() != ']') return {text, std::nullopt};
+  std::size_t index = 0;
+  const char* end = text.data() + text.size() - 1;
+  const auto read = std::from_chars(text.data() + bracket + 1, end, index);
+  if (read.ec != std::errc() || read.ptr != end) return {text, std::nullopt};
+  return {text.substr(0, bracket), index};
+}
+
 }  // namespace
 
 TomlTable parse_toml(std::string_view text) {
@@ -119,18 +138,28 @@ TomlTable parse_toml(std::string_view text) {
   }
 }
 
-void set_member(TomlTable& table, std::string_view path, std::string_view text) {
+std::optional<std::string> set_member(TomlTable& table, std::string_view path, std::string_view text) {
   const std::size_t dot = path.find('.');
-  TomlMember& member = member_of(table, path.substr(0, dot));
-  TomlValue& value = member.value[0];
+  const IndexedName part = indexed_name(path.substr(0, dot));
+  TomlMember& member = member_of(table, part.name);
+  TomlValue* value = &member.value[0];
   if (dot == std::string_view::npos) {
-    value = literal_or_word(text);
-    mark_as_given(value);
+    *value = literal_or_word(text);
+    mark_as_given(*value);
     member.place = {0, 0};
-    return;
+    return std::nullopt;
   }
-  if (!std::holds_alternative<TomlTable>(value.value)) value = {TomlTable{}, {0, 0}};
-  set_member(std::get<TomlTable>(value.value), path.substr(dot + 1), text);
+  std::size_t count = 1;
+  if (auto* list = std::get_if<TomlList>(&value->value)) {
+    count = list->size();
+    if (part.index.value_or(0) < count) value = &(*list)[part.index.value_or(0)];
+  }
+  if (count > 1 && !part.index)
+    return fmt::format("which of the {}? {}[0] to {}[{}]", count, part.name, part.name, count - 1);
+  if (part.index.value_or(0) >= count)
+    return fmt::format("there is no {}[{}]; the scene has {}, counted from 0", part.name, *part.index, count);
+  if (!std::holds_alternative<TomlTable>(value->value)) *value = {TomlTable{}, {0, 0}};
+  return set_member(std::get<TomlTable>(value->value), path.substr(dot + 1), text);
 }
 
 }  // namespace spindrift

@@ -2,6 +2,7 @@
 /// TOML text as a plain tree of values, each with its place: the only door to the TOML package.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -41,7 +42,8 @@ struct SyntaxError {
 TomlTable parse_toml(std::string_view text);
 
 /// Puts `path` = `text` into `table`, in place of what stood there. The text is TOML, or else taken as a string, so
-/// that `solver=wcsph` and `angle=38 deg` need no quotes.
-void set_member(TomlTable& table, std::string_view path, std::string_view text);
+/// that `solver=wcsph` and `angle=38 deg` need no quotes. Of several tables of one name `name[1]` is the second.
+/// Returns what is wrong where there is no such table, or where the path does not say which.
+std::optional<std::string> set_member(TomlTable& table, std::string_view path, std::string_view text);
 
 }  // namespace spindrift

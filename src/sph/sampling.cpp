@@ -179,7 +179,8 @@ void check_kind(const SnowKind<Dim>& kind) {
 }  // namespace
 
 template <int Dim>
-Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, const SnowKind<Dim>& kind) {
+Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, const SnowKind<Dim>& kind,
+                        std::span<const Box<Dim>> obstacles) {
   check_kind(kind);
   check(std::isfinite(layer.from) && std::isfinite(layer.to) && std::isfinite(layer.depth) &&
             std::isfinite(layer.y.from) && std::isfinite(layer.y.to),
@@ -225,9 +226,13 @@ Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, co
   std::vector<Vec<Dim>> positions;
   std::size_t n = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (kept[i] == 0) continue;
+    const Vec<Dim> x = terrain.position(places[i].template head<Dim - 1>(), places[i][Dim - 1]);
+    const bool blocked = std::any_of(obstacles.begin(), obstacles.end(), [&](const Box<Dim>& obstacle) {
+      return surface_of<Dim>(obstacle, x).distance < 0.5 * d;
+    });
+    if (kept[i] == 0 || blocked) continue;
     places[n++] = places[i];
-    positions.push_back(terrain.position(places[i].template head<Dim - 1>(), places[i][Dim - 1]));
+    positions.push_back(x);
   }
   std::vector<std::vector<std::uint32_t>> close(n);
   for_each_neighbourhood<Dim>(positions, n, least_pair * d, [&](std::size_t i, const Found& found) {
@@ -299,10 +304,11 @@ NearestNeighbours nearest_neighbours(std::span<const Vec<Dim>> positions) {
   return result;
 }
 
-#define INSTANTIATE(Dim)                                                                               \
-  template Cover<Dim> sample_cover<Dim>(const Terrain<Dim>&, const CoverLayer&, const SnowKind<Dim>&); \
-  template Particles<Dim> sample_slab<Dim>(const Terrain<Dim>&, const Slab&, const SnowKind<Dim>&);    \
-  template Particles<Dim> sample_box<Dim>(const Box<Dim>&, const SnowKind<Dim>&);                      \
+#define INSTANTIATE(Dim)                                                                              \
+  template Cover<Dim> sample_cover<Dim>(const Terrain<Dim>&, const CoverLayer&, const SnowKind<Dim>&, \
+                                        std::span<const Box<Dim>>);                                   \
+  template Particles<Dim> sample_slab<Dim>(const Terrain<Dim>&, const Slab&, const SnowKind<Dim>&);   \
+  template Particles<Dim> sample_box<Dim>(const Box<Dim>&, const SnowKind<Dim>&);                     \
   template NearestNeighbours nearest_neighbours<Dim>(std::span<const Vec<Dim>>);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -8,6 +8,7 @@
 
 #include "sph/cover.hpp"
 #include "sph/particles.hpp"
+#include "terrain/obstacle.hpp"
 #include "terrain/terrain.hpp"
 
 namespace spindrift {
@@ -43,11 +44,13 @@ struct CoverLayer {
 ///   - Centres keep d/2 off ground and surface; a layer thinner than 2 d keeps its mass rather than its spacing.
 ///   - Where the ground is concave, a place belongs to the piece of ground that is nearest; of two particles closer
 ///     than 0.7 d the later is left out (R22). Ground over 84 degrees (a cliff's face) carries no cover.
+///   - Nothing lies within d/2 of `obstacles`.
 /// Returns at-rest particles, entrained_at = -1, ids from kind.first_id up. Empty for depth 0 or to <= from.
 /// Throws Error(bad_input): spacing not positive, a number that is not finite.
 /// Source: paper Sec. 4.5.  Departure: R22.
 template <int Dim>
-Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, const SnowKind<Dim>& kind);
+Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, const SnowKind<Dim>& kind,
+                        std::span<const Box<Dim>> obstacles = {});
 
 /// A slab on the ground or on the cover.
 struct Slab {

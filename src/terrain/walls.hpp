@@ -1,9 +1,12 @@
 #pragma once
-/// Everything solid that particles meet: the terrain, where there is one, and the closed sides of the domain.
+/// Everything solid that particles meet: the terrain, where there is one, obstacles, and the closed sides of the
+/// domain.
 
 #include <array>
 #include <optional>
+#include <vector>
 
+#include "terrain/obstacle.hpp"
 #include "terrain/terrain.hpp"
 
 namespace spindrift {
@@ -13,22 +16,21 @@ enum class Side : std::uint8_t { open, closed };
 template <int Dim>
 struct Walls {
   std::optional<Terrain<Dim>> terrain;
+  std::vector<Box<Dim>> obstacles;
   Box<Dim> domain;
   std::array<std::array<Side, 2>, Dim> sides{};  ///< [axis][0 lower, 1 upper]
 
-  /// Calls f(distance, normal) for the terrain and for every closed side nearer than `reach` [m].
+  /// Calls f(distance, normal) for the terrain, for every obstacle and for every closed side nearer than `reach` [m].
   template <class F>
   void for_each_near(const Vec<Dim>& x, double reach, F&& f) const {
     if (terrain) {
       const Foot<Dim> foot = terrain->foot(x);
       if (foot.distance < reach) f(foot.distance, foot.normal);
     }
-    for_each_side_near(x, reach, f);
-  }
-
-  /// The same for the closed sides of the domain alone.
-  template <class F>
-  void for_each_side_near(const Vec<Dim>& x, double reach, F&& f) const {
+    for (const Box<Dim>& obstacle : obstacles) {
+      const BoxSurface<Dim> surface = surface_of<Dim>(obstacle, x);
+      if (surface.distance < reach) f(surface.distance, surface.normal);
+    }
     for (int axis = 0; axis < Dim; ++axis) {
       const double below = x[axis] - domain.lower[axis], above = domain.upper[axis] - x[axis];
       if (sides[axis][0] == Side::closed && below < reach) f(below, Vec<Dim>(Vec<Dim>::Unit(axis)));

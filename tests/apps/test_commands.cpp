@@ -150,14 +150,23 @@ TEST_CASE("a scene that would not fit ends with code 6 and touches nothing", "[c
   CHECK(place.n_entries() == 1);
 }
 
+TEST_CASE("check warns of what hardly makes sense, with place and reason", "[commands]") {
+  const Workplace place;
+  place.write("a.toml", scene);
+  const Outcome outcome = place.run("check a.toml --set suspension.cell_size=0.1");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.starts_with("--set: warning: suspension.cell_size: cells of 0.1 m are finer than the particles"));
+  CHECK(place.run("run a.toml --quiet --set suspension.cell_size=0.1").err.empty());
+}
+
 TEST_CASE("check tells what a run would need, and writes nothing", "[commands]") {
   const Workplace place;
   place.write("a.toml", scene);
-  const Outcome outcome = place.run("check a.toml --set suspension.cell_size=0.1 --set scene.end_time='2 s'");
+  const Outcome outcome = place.run("check a.toml --set suspension.cell_size=0.2 --set scene.end_time='2 s'");
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   CHECK(outcome.out.find("scene       a, 2D, 2 s\nparticles   50 released, 0 in the cover\n") == 0);
-  CHECK(outcome.out.find("cells       3,200 (80 x 40)\nframes      21\nmemory      about ") != std::string::npos);
+  CHECK(outcome.out.find("cells       800 (40 x 20)\nframes      21\nmemory      about ") != std::string::npos);
   CHECK(place.n_entries() == 1);
 }
 

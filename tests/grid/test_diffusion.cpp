@@ -98,7 +98,7 @@ TEMPLATE_TEST_CASE_SIG("viscosity keeps momentum and a uniform stream, and damps
   };
   Diffusion<Dim> diffusion;
   FaceField<Dim> uniform = make_face_field<Dim>(grid, 3.0);
-  diffusion.diffuse_velocity(uniform, smoke, area, grid, ground, 10, 1);
+  diffusion.diffuse_velocity(uniform, smoke, area, grid, ground, {}, 10, 1);
   for (int axis = 0; axis < Dim; ++axis)
     for (std::size_t f = 0; f < uniform[axis].size(); ++f) REQUIRE(uniform[axis][f] == Approx(3).epsilon(1e-12));
 
@@ -108,11 +108,11 @@ TEMPLATE_TEST_CASE_SIG("viscosity keeps momentum and a uniform stream, and damps
   const double before = momentum(wave), top = wave[0][std::size_t{0}] - 2;
   const double viscosity = 1e-2;
   for (int step = 0; step < 100; ++step)
-    diffusion.diffuse_velocity(wave, Field<Dim>(grid.cells), area, grid, ground, viscosity, 0.05);
+    diffusion.diffuse_velocity(wave, Field<Dim>(grid.cells), area, grid, ground, {}, viscosity, 0.05);
   CHECK(wave[0][std::size_t{0}] - 2 == Approx(top * std::exp(-viscosity * k * k * 5)).epsilon(0.01));
   FaceField<Dim> again = face_velocity<Dim>(
       grid, [](const Vec<Dim>& x) { return Vec<Dim>((2 + std::cos(k * x[Dim - 1])) * Vec<Dim>::Unit(0)); });
-  diffusion.diffuse_velocity(again, smoke, area, grid, ground, viscosity, 100);
+  diffusion.diffuse_velocity(again, smoke, area, grid, ground, {}, viscosity, 100);
   CHECK(momentum(again) == Approx(before).epsilon(1e-12));
 }
 

@@ -73,10 +73,10 @@ inline std::vector<BadScene> bad_scenes() {
       BadScene{head + "[dense_flow]\n[release]\nshape = \"box\"\nlower = [1, 1]\n",
                "a.toml:6:2: release.upper: missing, expected a list of 2 lengths"},
       BadScene{head + "[dense_flow]\n[release]\nshape = \"box\"\nlower = [-1, 1]\nupper = [0.5, 60]\n",
-               "a.toml:8:9: release.lower: got -1 along x, expected a box inside the domain, whose domain.lower stands "
-               "at a.toml:3:9\n"
-               "a.toml:9:9: release.upper: got 60 along z, expected a box inside the domain, whose domain.upper stands "
-               "at a.toml:4:9"},
+               "a.toml:8:9: release.lower: reaches -1 along x, expected it inside the domain, whose domain.lower "
+               "stands at a.toml:3:9\n"
+               "a.toml:9:9: release.upper: reaches 60 along z, expected it inside the domain, whose domain.upper "
+               "stands at a.toml:4:9"},
       BadScene{head + "[dense_flow]\n[release]\nshape = \"box\"\nlower = [1, 1]\nupper = [1, 2]\n",
                "a.toml:9:9: release.upper: got 1 along x, expected more than 1 of release.lower at a.toml:8:9"},
       BadScene{snow + "suport_radius = 0.2\n",

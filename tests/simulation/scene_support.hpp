@@ -20,20 +20,26 @@ inline Scene scene_with_everything(int dim, std::string_view preset = "physical"
   scene.domain.upper.assign(n, 100);
   scene.domain.gravity.assign(n, 0);
   scene.domain.gravity.back() = -9.81;
-  scene.release->velocity.assign(n, 0);
+  scene.release[0].velocity.assign(n, 0);
   scene.suspension->wind.assign(n, 2.5);
+  scene.suspension->lid.assign(n, 0);
+  scene.smoke[0].lower.assign(n, 1);
+  scene.smoke[0].upper.assign(n, 2);
+  scene.obstacle[0].lower.assign(n, -2);
+  scene.obstacle[0].upper.assign(n, -1);
   return scene;
 }
 
-/// The same sections, and the same bits in every value.
+/// The same sections, and the same bits in every value that means something there.
 inline bool same(Scene a, Scene b) {
   for (const Section& section : sections())
-    if (section.exists(a) != section.exists(b)) return false;
-  for (const Key& key : keys()) {
-    if (!find_section(key.section())->exists(a)) continue;
-    const Slot slot_a = key.field(a), slot_b = key.field(b);
-    if (!std::visit([&](auto* value) { return *value == *std::get<decltype(value)>(slot_b); }, slot_a)) return false;
-  }
+    if (section.count(a) != section.count(b)) return false;
+  for (const Key& key : keys())
+    for (std::size_t i = 0; i < find_section(key.section())->count(a); ++i) {
+      if (!applies(key, a, i)) continue;
+      const Slot slot_a = key.field(a, i), slot_b = key.field(b, i);
+      if (!std::visit([&](auto* value) { return *value == *std::get<decltype(value)>(slot_b); }, slot_a)) return false;
+    }
   return true;
 }
 

@@ -22,8 +22,8 @@ ExitCode outcome(const Scene& scene) {
 TEST_CASE("a plan counts particles, cells and frames", "[plan]") {
   Scene scene = scene_with_everything(2);
   scene.dense_flow->support_radius = 0.5;
-  scene.release->length = 10;
-  scene.release->thickness = 2;
+  scene.release[0].length = 10;
+  scene.release[0].thickness = 2;
   scene.cover->from = 5;
   scene.cover->to = 25;
   scene.cover->depth = 0.5;
@@ -44,8 +44,8 @@ TEST_CASE("in 3D the plan counts the width", "[plan]") {
   scene.dense_flow->support_radius = 2;
   scene.domain.lower[1] = 0;
   scene.domain.upper[1] = 7;
-  scene.release->length = 10;
-  scene.release->thickness = 2;
+  scene.release[0].length = 10;
+  scene.release[0].thickness = 2;
   CHECK(plan_scene(scene).n_release == 140);
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("absent layers need nothing", "[plan]") {
   Scene scene = scene_with_everything(2);
   scene.suspension.reset();
   scene.cover.reset();
-  scene.release.reset();
+  scene.release.clear();
   const Plan plan = plan_scene(scene);
   CHECK(plan.n_cells == 0);
   CHECK(plan.grid.empty());
@@ -81,7 +81,7 @@ TEST_CASE("what would not fit is refused at once, with exit code 6", "[plan]") {
   if (absurd == 0) scene.suspension->cell_size = 1e-9;
   if (absurd == 1) scene.suspension->cell_size = 5e-324;
   if (absurd == 2) scene.dense_flow->support_radius = 1e-300;
-  if (absurd == 3) scene.release->length = 1e18;
+  if (absurd == 3) scene.release[0].length = 1e18;
   if (absurd == 4) scene.output.frames_per_second = 1e15;
   if (absurd == 5) scene.cover->depth = 1e12;
   CHECK(outcome(scene) == ExitCode::would_not_fit);

@@ -44,7 +44,7 @@ TEST_CASE("the smallest scene has a domain and nothing else", "[scene]") {
   CHECK(scene.domain.upper == std::vector<double>{100, 50});
   CHECK(scene.domain.gravity == std::vector<double>{0, -9.81});
   CHECK_FALSE(scene.terrain.has_value());
-  CHECK_FALSE(scene.release.has_value());
+  CHECK(scene.release.empty());
   CHECK_FALSE(scene.dense_flow.has_value());
   CHECK_FALSE(scene.cover.has_value());
   CHECK_FALSE(scene.suspension.has_value());
@@ -55,7 +55,7 @@ TEST_CASE("the smallest scene has a domain and nothing else", "[scene]") {
 TEST_CASE("an empty section switches its physics on with all defaults", "[scene]") {
   const Scene scene =
       parse_scene(snow + "[cover]\n[suspension.confinement]\n[coupling.drag]\n[entrainment]\n", "a.toml");
-  CHECK(scene.release->velocity == std::vector<double>{0, 0});
+  CHECK(scene.release[0].velocity == std::vector<double>{0, 0});
   CHECK(scene.dense_flow->support_radius == DenseFlowSection{}.support_radius);
   CHECK(scene.suspension->confinement->strength == ConfinementSection{}.strength);
   CHECK(scene.coupling->drag->law == "air");
@@ -184,15 +184,15 @@ TEST_CASE("a text cut anywhere, or with any byte changed, is taken or refused wi
   }
 }
 
-TEST_CASE("only regular files of at most 64 kB are read", "[scene]") {
+TEST_CASE("only regular files of at most 4 MB are read", "[scene]") {
   const TemporaryFile good("spindrift_good.toml", head);
   CHECK(read_scene(good.path).scene.name == "spindrift_good");
   CHECK(file_refusal("/no/such/file.toml") == "/no/such/file.toml: there is no such file");
   const std::string folder = std::filesystem::temp_directory_path().string();
   CHECK(file_refusal(folder) == folder + ": not a regular file");
   CHECK(file_refusal("/dev/zero") == "/dev/zero: not a regular file");
-  const TemporaryFile big("spindrift_big.toml", head + std::string(65536, '#'));
-  CHECK(file_refusal(big.path) == big.path.string() + ": longer than the 64 kB that a scene may have");
+  const TemporaryFile big("spindrift_big.toml", head + std::string(4 * 1024 * 1024, '#'));
+  CHECK(file_refusal(big.path) == big.path.string() + ": longer than the 4 MB that a scene may have");
   const TemporaryFile full("spindrift_full.toml", head + std::string(65536 - head.size(), '#'));
   CHECK(file_refusal(full.path) == "");
 }

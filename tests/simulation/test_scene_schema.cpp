@@ -32,7 +32,8 @@ TEST_CASE("The schema has every section and key, each with what it means, and no
         })));
   for (const Section& section : sections()) {
     const nlohmann::json& object = schema.at(nlohmann::json::json_pointer(pointer_to(section.path)));
-    CHECK(object["type"] == "object");
+    CHECK((section.repeats ? object["items"]["type"] : object["type"]) == "object");
+    if (section.repeats) CHECK(object["type"] == nlohmann::json({"object", "array"}));
     CHECK(object["additionalProperties"] == false);
     CHECK(!object["description"].get<std::string>().empty());
   }

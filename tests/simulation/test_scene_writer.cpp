@@ -14,9 +14,9 @@ TEST_CASE("a written scene reads back as the same scene", "[scene]") {
   if (variant == 1) {
     scene.terrain->shape = "polyline";
     scene.terrain->points = {{0, 1.0 / 3}, {0.1 + 0.2, -5e-324}, {90, -50}};
-    scene.release->shape = "box";
-    scene.release->lower = scene.domain.lower;
-    scene.release->upper.assign(scene.domain.lower.size(), 1e-300);
+    scene.release[0].shape = "box";
+    scene.release[0].lower = scene.domain.lower;
+    scene.release[0].upper.assign(scene.domain.lower.size(), 1e-300);
   }
   if (variant == 2) {
     scene.terrain->angle = std::nextafter(1.0, 2.0);

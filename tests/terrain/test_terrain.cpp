@@ -119,3 +119,27 @@ TEMPLATE_TEST_CASE_SIG("Walls are the ground and the closed sides", "[terrain]",
   CHECK(walls.outside(Vec<Dim>(Vec<Dim>::Constant(2.1))));
   CHECK_FALSE(walls.outside(Vec<Dim>(-0.1 * Vec<Dim>::Unit(0) + Vec<Dim>::Constant(0.0))));
 }
+
+TEMPLATE_TEST_CASE_SIG("The distance to a box, outside, inside and off its corner", "[terrain]", ((int Dim), Dim), 2,
+                       3) {
+  const Box<Dim> box{Vec<Dim>::Constant(1), Vec<Dim>::Constant(3)};
+  const Vec<Dim> middle = Vec<Dim>::Constant(2);
+  const auto beside = surface_of<Dim>(box, middle + 1.5 * Vec<Dim>::Unit(0));
+  CHECK(beside.distance == Approx(0.5));
+  CHECK(beside.normal == Vec<Dim>(Vec<Dim>::Unit(0)));
+  const auto within = surface_of<Dim>(box, middle - 0.75 * Vec<Dim>::Unit(Dim - 1));
+  CHECK(within.distance == Approx(-0.25));
+  CHECK(within.normal == Vec<Dim>(-Vec<Dim>::Unit(Dim - 1)));
+  const auto corner = surface_of<Dim>(box, Vec<Dim>(Vec<Dim>::Constant(3.1)));
+  CHECK(corner.distance == Approx(0.1 * std::sqrt(Dim)));
+  CHECK((corner.normal - Vec<Dim>::Constant(1 / std::sqrt(Dim))).norm() < 1e-12);
+  Walls<Dim> walls;
+  walls.domain = {Vec<Dim>::Constant(-10), Vec<Dim>::Constant(10)};
+  walls.obstacles = {box};
+  int n = 0;
+  walls.for_each_near(Vec<Dim>(Vec<Dim>::Constant(3.1)), 0.5, [&](double distance, const Vec<Dim>&) {
+    ++n;
+    CHECK(distance == corner.distance);
+  });
+  CHECK(n == 1);
+}

@@ -1,0 +1,178 @@
+#include "simulation/release.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/open_fractions.hpp"
+#include "simulation/scene_vectors.hpp"
+#include "sph/sampling.hpp"
+
+namespace spindrift {
+namespace {
+
+/// Whether (x, z) lies inside a polygon, by the even-odd rule.
+bool inside(const std::vector<std::array<double, 2>>& corners, double x, double z) {
+  bool in = false;
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
+    const auto& [xi, zi] = corners[i];
+    const auto& [xj, zj] = corners[j];
+    if ((zi > z) != (zj > z) && x < xi + (xj - xi) * (z - zi) / (zj - zi)) in = !in;
+  }
+  return in;
+}
+
+template <int Dim>
+Slab slab_of(const Scene& scene, const ReleaseSection& release, const Walls<Dim>& walls) {
+  Slab slab;
+  slab.at = release.at;
+  slab.length = release.length;
+  slab.base = scene.cover ? scene.cover->depth : 0;
+  slab.thickness = release.thickness;
+  slab.y = breadth_of(walls.domain);
+  return slab;
+}
+
+/// The box around a release that is no slab.
+template <int Dim>
+Box<Dim> box_around(const ReleaseSection& release, const Walls<Dim>& walls) {
+  if (release.shape == "box") return box_of<Dim>(release.lower, release.upper);
+  if (release.shape == "ball") {
+    const Vec<Dim> center = box_of<Dim>(release.center, release.center).lower;
+    return {center - Vec<Dim>::Constant(release.radius), center + Vec<Dim>::Constant(release.radius)};
+  }
+  Box<Dim> box = walls.domain;
+  for (const auto& [k, axis] : {std::pair{0, 0}, std::pair{1, up_axis<Dim>}}) {
+    const auto of_axis = [k = static_cast<std::size_t>(k)](const auto& a, const auto& b) { return a[k] < b[k]; };
+    const auto [least, most] = std::minmax_element(release.points.begin(), release.points.end(), of_axis);
+    box.lower[axis] = (*least)[static_cast<std::size_t>(k)];
+    box.upper[axis] = (*most)[static_cast<std::size_t>(k)];
+  }
+  return box;
+}
+
+/// Whether x lies inside the release, `margin` [m] or more from the sides of its box or slab.
+template <int Dim>
+bool contains(const Scene& scene, const ReleaseSection& release, const Walls<Dim>& walls, const Vec<Dim>& x,
+              double margin) {
+  if (release.shape == "slab") {
+    const Slab slab = slab_of(scene, release, walls);
+    const Foot<Dim> foot = walls.terrain->foot(x);
+    return foot.place[0] > slab.at + margin && foot.place[0] < slab.at + slab.length - margin &&
+           foot.distance > slab.base + margin && foot.distance < slab.base + slab.thickness - margin;
+  }
+  const Box<Dim> box = box_around<Dim>(release, walls);
+  const Vec<Dim> rim = Vec<Dim>::Constant(margin);
+  if (!Box<Dim>{box.lower + rim, box.upper - rim}.contains(x)) return false;
+  if (release.shape == "polygon") return inside(release.points, x[0], x[up_axis<Dim>]);
+  return release.shape != "ball" || (x - (box.lower + box.upper) / 2).norm() <= release.radius;
+}
+
+template <int Dim>
+bool in_cover(const Scene& scene, const Walls<Dim>& walls, const Vec<Dim>& x, double margin) {
+  if (!scene.cover) return false;
+  const Foot<Dim> foot = walls.terrain->foot(x);
+  const double to = scene.cover->to;
+  return foot.distance < scene.cover->depth + margin && foot.place[0] >= scene.cover->from &&
+         (to < 0 || foot.place[0] <= to);
+}
+
+template <int Dim>
+void set_in_motion(Particles<Dim>& snow, const ReleaseSection& release) {
+  if (snow.empty() || (release.shear == 0 && release.rotation == 0)) return;
+  Vec<Dim> middle = Vec<Dim>::Zero();
+  double lowest = snow.position[0][up_axis<Dim>];
+  for (const Vec<Dim>& x : snow.position) {
+    middle += x / static_cast<double>(snow.size());
+    lowest = std::min(lowest, x[up_axis<Dim>]);
+  }
+  for (std::size_t i = 0; i < snow.size(); ++i) {
+    const Vec<Dim> arm = snow.position[i] - middle;
+    snow.velocity[i][0] += release.shear * (snow.position[i][up_axis<Dim>] - lowest);
+    snow.velocity[i][0] -= release.rotation * arm[up_axis<Dim>];
+    snow.velocity[i][up_axis<Dim>] += release.rotation * arm[0];
+  }
+}
+
+/// Share of a cell that a box fills.
+template <int Dim>
+double filled_share(const Box<Dim>& box, const MacGrid<Dim>& grid, const Index<Dim>& cell) {
+  const Vec<Dim> lower = grid.node(cell).cwiseMax(box.lower);
+  const Vec<Dim> upper = (grid.node(cell) + Vec<Dim>::Constant(grid.dx)).cwiseMin(box.upper);
+  return (upper - lower).cwiseMax(0).prod() / grid.cell_volume();
+}
+
+/// Share of a cell that a ball fills, its surface taken as plane within the cell.
+template <int Dim>
+double filled_share(const Vec<Dim>& center, double radius, const MacGrid<Dim>& grid, const Index<Dim>& cell) {
+  std::array<double, std::size_t{1} << Dim> depth;
+  for (std::size_t corner = 0; corner < depth.size(); ++corner) {
+    Index<Dim> node = cell;
+    for (int axis = 0; axis < Dim; ++axis) node[axis] += static_cast<int>((corner >> axis) & 1);
+    depth[corner] = radius - (grid.node(node) - center).norm();
+  }
+  return open_fraction<Dim>(depth);
+}
+
+}  // namespace
+
+template <int Dim>
+ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls) {
+  ReleasedSnow<Dim> snow;
+  const double d = scene.dense_flow->support_radius / 2, margin = 0.25 * d;
+  for (std::size_t r = 0; r < scene.release.size(); ++r) {
+    const ReleaseSection& release = scene.release[r];
+    SnowKind<Dim> kind;
+    kind.spacing = d;
+    kind.density = release.density > 0 ? release.density : scene.dense_flow->density;
+    kind.velocity = box_of<Dim>(release.velocity, release.velocity).lower;
+    const Particles<Dim> lattice = release.shape == "slab"
+                                       ? sample_slab<Dim>(*walls.terrain, slab_of(scene, release, walls), kind)
+                                       : sample_box<Dim>(box_around<Dim>(release, walls), kind);
+    Particles<Dim> kept;
+    ReleaseCount& count = snow.releases.emplace_back();
+    for (std::size_t i = 0; i < lattice.size(); ++i) {
+      const Vec<Dim>& x = lattice.position[i];
+      if (release.shape != "slab" && !contains(scene, release, walls, x, 0)) continue;
+      bool buried = in_cover(scene, walls, x, margin);
+      walls.for_each_near(x, margin, [&](double, const Vec<Dim>&) { buried = true; });
+      const bool doubled = std::any_of(scene.release.begin(), scene.release.begin() + static_cast<std::ptrdiff_t>(r),
+                                       [&](const auto& earlier) { return contains(scene, earlier, walls, x, margin); });
+      if (buried || doubled) {
+        ++(buried ? count.buried : count.doubled);
+        continue;
+      }
+      ++count.placed;
+      if (walls.outside(x)) ++count.outside;
+      kept.push_back_from(lattice, i);
+    }
+    set_in_motion(kept, release);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      snow.particles.push_back_from(kept, i);
+      snow.particles.id.back() = snow.particles.size() - 1;
+    }
+  }
+  return snow;
+}
+
+template <int Dim>
+Field<Dim> initial_smoke(const Scene& scene, const Suspension<Dim>& suspension) {
+  const MacGrid<Dim>& grid = suspension.grid();
+  Field<Dim> smoke(grid.cells);
+  for (const SmokeSection& shape : scene.smoke) {
+    const bool ball = shape.shape == "ball";
+    const Box<Dim> box = ball ? box_of<Dim>(shape.center, shape.center) : box_of<Dim>(shape.lower, shape.upper);
+    for_each_index<Dim>(grid.cells, [&](const Index<Dim>& cell) {
+      const double share =
+          ball ? filled_share<Dim>(box.lower, shape.radius, grid, cell) : filled_share<Dim>(box, grid, cell);
+      if (share > 0) smoke[cell] = share * shape.density * suspension.ground().volume()[cell];
+    });
+  }
+  return smoke;
+}
+
+template ReleasedSnow<2> released_snow<2>(const Scene&, const Walls<2>&);
+template ReleasedSnow<3> released_snow<3>(const Scene&, const Walls<3>&);
+template Field<2> initial_smoke<2>(const Scene&, const Suspension<2>&);
+template Field<3> initial_smoke<3>(const Scene&, const Suspension<3>&);
+
+}  // namespace spindrift

@@ -1,0 +1,38 @@
+#pragma once
+/// What is there when the clock starts: the snow that a scene releases, and smoke in the air.
+
+#include <vector>
+
+#include "grid/suspension.hpp"
+#include "simulation/scene.hpp"
+#include "sph/particles.hpp"
+#include "terrain/walls.hpp"
+
+namespace spindrift {
+
+/// What became of the particles of one release.
+struct ReleaseCount {
+  std::size_t placed = 0;   ///< in the dense flow
+  std::size_t buried = 0;   ///< left out: in the ground, the cover, an obstacle or a closed side
+  std::size_t doubled = 0;  ///< left out: in an earlier release
+  std::size_t outside = 0;  ///< of those placed: beyond an open side, gone after the first step
+};
+
+template <int Dim>
+struct ReleasedSnow {
+  Particles<Dim> particles;            ///< ids from 0
+  std::vector<ReleaseCount> releases;  ///< in the order of the scene
+};
+
+/// Lattices of the particle spacing d in every shape, ids in the order of the scene. Places nearer than d/4 to
+/// something solid, or inside an earlier release, are left out.
+/// Velocity: velocity + shear (z - z_least) e_x + rotation (x - middle) turned from x to z.
+template <int Dim>
+ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls);
+
+/// Smoke of each cell [kg], from the shapes of [smoke]: density times open volume times the share of the cell that the
+/// shape fills. Later ones replace earlier ones.   Pre: the suspension's ground is set.
+template <int Dim>
+Field<Dim> initial_smoke(const Scene& scene, const Suspension<Dim>& suspension);
+
+}  // namespace spindrift

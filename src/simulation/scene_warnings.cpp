@@ -1,0 +1,174 @@
+#include "simulation/scene_warnings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/registry.hpp"
+#include "simulation/release.hpp"
+#include "simulation/setup.hpp"
+#include "simulation/units.hpp"
+
+namespace spindrift {
+namespace {
+
+bool is_zero(const std::vector<double>& v) {
+  return std::all_of(v.begin(), v.end(), [](double x) { return x == 0; });
+}
+
+class Warner {
+ public:
+  Warner(const Scene& scene, const Origins& origins) : scene_(scene), origins_(origins) {}
+
+  std::vector<std::string> run() {
+    keys_without_effect();
+    sections();
+    sizes();
+    air();
+    scene_.scene.dim == 3 ? places<3>() : places<2>();
+    return std::move(lines_);
+  }
+
+ private:
+  void add(std::string_view path, std::string_view why) {
+    std::string_view around = path;
+    auto origin = origins_.find(around);
+    while (origin == origins_.end() && around.find('.') != std::string_view::npos) {
+      around = around.substr(0, around.rfind('.'));
+      origin = origins_.find(around);
+    }
+    const std::string place = origin == origins_.end() ? "" : origin->second + ": ";
+    lines_.push_back(fmt::format("{}warning: {}: {}", place, path, why));
+  }
+
+  void keys_without_effect() {
+    Scene scene = scene_;
+    for (const Key& key : keys()) {
+      const std::size_t count = find_section(key.section())->count(scene);
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::string path = numbered(key, i, count);
+        if (applies(key, scene, i) || !origins_.contains(path)) continue;
+        const std::string word = fmt::format("{}.{}", numbered(key.section(), i, count), key.condition.name);
+        add(path,
+            fmt::format("has no effect, it belongs to {} = \"{}\"", word, fmt::join(key.condition.values, "\" or \"")));
+      }
+    }
+  }
+
+  void sections() {
+    const auto& s = scene_;
+    if (s.cover && !s.entrainment) add("cover", "nothing takes it up: there is no section [entrainment]");
+    if (s.dense_flow && s.release.empty() && !(s.entrainment && s.entrainment->spontaneous))
+      add("dense_flow", "no snow will move: there is no section [release]");
+    if (s.coupling && !s.coupling->drag && !s.coupling->lift && !s.coupling->generation && !s.coupling->adhesion)
+      add("coupling", "nothing is exchanged: it has none of drag, lift, generation and adhesion");
+    if (s.coupling && s.coupling->adhesion && !s.coupling->generation && s.smoke.empty())
+      add("coupling.adhesion", "there will be no smoke to adhere: neither [coupling.generation] nor [smoke]");
+    if (!s.dense_flow && !s.suspension) add("domain", "nothing to compute: neither [dense_flow] nor [suspension]");
+  }
+
+  void sizes() {
+    if (!scene_.dense_flow) return;
+    const double d = scene_.dense_flow->support_radius / 2;
+    const auto thinner = [&](const std::string& path, double size, const char* what) {
+      if (size < d)
+        add(path,
+            fmt::format("{} of {} m is thinner than one particle of {} m", what, number_text(size), number_text(d)));
+    };
+    if (scene_.suspension && scene_.suspension->cell_size < d)
+      add("suspension.cell_size",
+          fmt::format("cells of {} m are finer than the particles, {} m apart: the air would see every single one, at "
+                      "{:.0f} times the cost of cells of that size",
+                      number_text(scene_.suspension->cell_size), number_text(d),
+                      std::pow(d / scene_.suspension->cell_size, scene_.scene.dim + 1)));
+    if (scene_.cover) thinner("cover.depth", scene_.cover->depth, "a cover");
+    for (std::size_t i = 0; i < scene_.release.size(); ++i) {
+      const ReleaseSection& release = scene_.release[i];
+      const std::string name = numbered("release", i, scene_.release.size());
+      const double density = scene_.dense_flow->density, time = scene_.dense_flow->compaction_time;
+      if (release.density > 0 && release.density != density && time > 0)
+        add(name + ".density", fmt::format("snow takes on dense_flow.density = {} kg/m^3 within the {} s of "
+                                           "dense_flow.compaction_time; 0 s there lets it keep its own",
+                                           number_text(density), number_text(time)));
+    }
+    double least = 2 * d;
+    if (scene_.suspension) least = std::max(least, 2 * scene_.suspension->cell_size);
+    for (std::size_t i = 0; i < scene_.obstacle.size(); ++i) {
+      const ObstacleSection& obstacle = scene_.obstacle[i];
+      for (std::size_t k = 0; k < obstacle.lower.size(); ++k)
+        if (obstacle.upper[k] - obstacle.lower[k] < least)
+          add(numbered("obstacle", i, scene_.obstacle.size()),
+              fmt::format("thinner than two particles or cells ({} m): snow or smoke may pass through it",
+                          number_text(least)));
+    }
+  }
+
+  void air() {
+    const DomainSection& domain = scene_.domain;
+    if (domain.gravity.back() > 0) add("domain.gravity", "points upwards");
+    if (!scene_.suspension) return;
+    const SuspensionSection& air = *scene_.suspension;
+    if (air.wall == "no_slip" && air.viscosity == 0)
+      add("suspension.wall", "has no effect on air without viscosity: suspension.viscosity is 0");
+    if (is_zero(air.wind)) return;
+    const std::string* sides[3][2] = {{&domain.left, &domain.right}, {&domain.front, &domain.back}, {}};
+    sides[scene_.scene.dim - 1][0] = &domain.bottom, sides[scene_.scene.dim - 1][1] = &domain.top;
+    for (std::size_t k = 0; k < air.wind.size(); ++k)
+      if (air.wind[k] != 0 && *sides[k][air.wind[k] > 0 ? 0 : 1] == "closed")
+        add("suspension.wind", "comes through a closed side of the domain: it will die down");
+  }
+
+  template <int Dim>
+  void places() {
+    const Walls<Dim> walls = make_walls<Dim>(scene_);
+    if (walls.terrain) ground(walls);
+    if (!scene_.dense_flow) return;
+    const std::vector<ReleaseCount> counts = released_snow<Dim>(scene_, walls).releases;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const ReleaseCount& count = counts[i];
+      const std::string name = numbered("release", i, counts.size());
+      const std::size_t all = count.placed + count.buried + count.doubled;
+      const auto left_out = [&](std::size_t n, std::string_view where) {
+        if (n > 0) add(name, fmt::format("{} of its {} particles are left out: they lie {}", n, all, where));
+      };
+      left_out(count.buried, "in the ground, the cover, an obstacle or a wall");
+      left_out(count.doubled, "in an earlier release");
+      if (count.outside > 0)
+        add(name,
+            fmt::format("{} of its {} particles lie outside the domain and will be gone at once", count.outside, all));
+      if (all == 0) add(name, "too small for a single particle: no snow is released");
+    }
+  }
+
+  template <int Dim>
+  void ground(const Walls<Dim>& walls) {
+    constexpr int n = 200;
+    int below = 0, above = 0;
+    for (int i = 0; i <= n; ++i) {
+      const double x = walls.domain.lower[0] + walls.domain.size()[0] * i / n;
+      const double z = walls.terrain->height(x);
+      below += z < walls.domain.lower[up_axis<Dim>];
+      above += z > walls.domain.upper[up_axis<Dim>];
+    }
+    if (below > 0)
+      add("terrain", fmt::format("lies below the domain over {} % of its length: snow leaves there",
+                                 std::max(1, 100 * below / (n + 1))));
+    if (above > 0)
+      add("terrain", fmt::format("fills the whole height of the domain over {} % of its length",
+                                 std::max(1, 100 * above / (n + 1))));
+  }
+
+  const Scene& scene_;
+  const Origins& origins_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> scene_warnings(const Scene& scene, const Origins& origins) {
+  return Warner(scene, origins).run();
+}
+
+}  // namespace spindrift
