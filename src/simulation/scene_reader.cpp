@@ -15,6 +15,7 @@
 #include "simulation/scene_report.hpp"
 #include "simulation/scene_values.hpp"
 #include "simulation/spelling.hpp"
+#include "simulation/syntax_hint.hpp"
 
 namespace spindrift {
 namespace {
@@ -196,6 +197,7 @@ class Reader {
       scene_.terrain->points = read_points(file);
     } catch (const PointFileError& error) {
       report_.add(place_of(places_, path), path, error.what());
+      report_.suspect("terrain.points");
     }
   }
 
@@ -242,7 +244,8 @@ Scene parse_scene(std::string_view text, const std::string& file, const std::vec
   try {
     reader.emplace(parse_toml(text), file);
   } catch (const SyntaxError& error) {
-    refuse(fmt::format("{}:{}:{}", file, error.place.line, error.place.column), error.why);
+    refuse(fmt::format("{}:{}:{}", file, error.place.line, error.place.column),
+           error.why + syntax_hint(text, error.place.line, error.why));
   }
   for (const std::string& setting : settings) reader->apply(setting);
   const Scene scene = reader->read(name_from(file), std::filesystem::path(file).parent_path());

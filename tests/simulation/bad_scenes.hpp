@@ -148,6 +148,54 @@ inline std::vector<BadScene> bad_scenes() {
       BadScene{head + "[terrain]\nshape = \"cliff\"\ncliff_at = 30\n",
                "a.toml:5:2: terrain.cliff_height: got 20, expected a cliff above the slope's foot: cliff_at + "
                "cliff_height below the drop of 50 m at a.toml:5:2"},
+      BadScene{
+          head + "[dense_flow]\nsolver = dfsph\n",
+          "a.toml:6:10: Error while parsing value: could not determine value type; words stand in quotes: solver = "
+          "\"dfsph\""},
+      BadScene{head + "[terrain]\nangle = 38 deg\n",
+               "a.toml:6:12: Error while parsing key-value pair: expected a comment or whitespace, saw 'd'; a number "
+               "with its unit stands in quotes: angle = \"38 deg\""},
+      BadScene{head + "[dense_flow]\nfriction mu = 0.2\n",
+               "a.toml:6:10: Error while parsing key-value pair: expected '=', saw 'm'; names have no blanks: "
+               "friction_mu"},
+      BadScene{head + "[scene]\nend_time = 1,5\n",
+               "a.toml:6:13: Error while parsing key-value pair: expected a comment or whitespace, saw ','; decimals "
+               "have a point, and lists stand in [ ]"},
+      BadScene{head + "[scene]\nname = \"B\xE4r\"\n",
+               "a.toml:6:9: Encountered invalid utf-8 sequence; save the file as plain text in UTF-8"},
+      BadScene{std::string("\xFF\xFEs\0c\0", 6),
+               "a.toml:1:1: Encountered invalid utf-8 sequence; save the file as plain text in UTF-8"},
+      BadScene{head + "[dense_flow]\nsupport_radius =\n",
+               "a.toml:6:17: Error while parsing key-value pair: expected value, saw '\\n'; a value is missing behind "
+               "support_radius ="},
+      BadScene{head + "[dense_flow]\n[[release]]\nshape = \"box\"\nlower = [1, 1]\nupper = [2, 2]\n[[release]]\n"
+                      "shape = \"ball\"\nradius = \"1 kg\"\ncenter = [5, 5]\n",
+               "a.toml:12:10: release[1].radius: got \"1 kg\", a mass, expected a length above 0 and at most 1e+05 m"},
+      BadScene{head + "[dense_flow]\n[[release]]\nshape = \"ball\"\n",
+               "a.toml:6:1: release.center: missing, expected a list of 2 lengths"},
+      BadScene{head + "[dense_flow]\n[release]\nshape = \"ball\"\ncenter = [1, 5]\nradius = 3\n",
+               "a.toml:8:10: release.center: reaches -2 along x, expected it inside the domain, whose domain.lower "
+               "stands at a.toml:3:9"},
+      BadScene{head + "[dense_flow]\n[release]\nshape = \"polygon\"\npoints = [[1, 1], [2, 2]]\n",
+               "a.toml:8:10: release.points: got 2 points, expected at least 3 (x, z)"},
+      BadScene{head + "[dense_flow]\n[release]\nshape = \"cube\"\n",
+               "a.toml:7:9: release.shape: got \"cube\", expected \"slab\", \"box\", \"ball\" or \"polygon\""},
+      BadScene{snow + "[[release]]\n",
+               "a.toml:8:1: Error while parsing table header: cannot redefine existing table 'release' "
+               "as array-of-tables"},
+      BadScene{head + "release = [1, 2]\n", "a.toml:5:1: domain.release: unknown key"},
+      BadScene{head + "[terrain]\n[dense_flow]\n[release]\nthickness = 2\nlayers = 3\n",
+               "a.toml:9:10: release.layers: contradicts release.thickness at a.toml:8:13: leave out one"},
+      BadScene{head + "[terrain]\nshape = \"polyline\"\nfile = \"no_such_profile.txt\"\n",
+               "a.toml:7:8: terrain.file: there is no file no_such_profile.txt"},
+      BadScene{head + "[terrain]\nshape = \"polyline\"\nfile = \"p.txt\"\npoints = [[0, 1], [2, 1]]\n",
+               "a.toml:7:8: terrain.file: contradicts terrain.points at a.toml:8:10: leave out one"},
+      BadScene{head + "[obstacle]\nlower = [0, 0]\n",
+               "a.toml:5:2: obstacle.upper: missing, expected a list of 2 lengths"},
+      BadScene{head + "[smoke]\nlower = [0, 0]\nupper = [1, 1]\n",
+               "a.toml:5:2: smoke: needs the section [suspension], which the scene does not have"},
+      BadScene{head + "[suspension]\nwall = \"no_slip\"\nlid = [1, 0]\n",
+               "a.toml:7:7: suspension.lid: contradicts domain.top = \"open\" at a.toml:2:2: a lid closes the top"},
       BadScene{snow + "density = -1\nviscosity = -1\n[cover]\nto = 1\nfrom = 2\ndepth = 0\n",
                "a.toml:8:11: dense_flow.density: got -1, expected a density above 0 and at most 1e+05 kg/m^3\n"
                "a.toml:9:13: dense_flow.viscosity: got -1, expected a viscosity from 0 to 1e+06 Pa s\n"

@@ -125,6 +125,13 @@ TEST_CASE("bad settings are refused at --set", "[scene]") {
   CHECK(refusal(snow, {"scene.seed=-1"}) == "--set: scene.seed: got -1, expected a whole number from 0");
   CHECK(refusal(snow, {"domain.lower=[1,2"}) ==
         "--set: domain.lower: got \"[1,2\", expected a list of 2, each a length from -1e+06 to 1e+06 m");
+  const std::string two = head + "[terrain]\n[dense_flow]\n[[release]]\n[[release]]\nat = 20\n";
+  CHECK(refusal(two, {"release.at=3"}) == "--set: release.at: which of the 2? release[0] to release[1]");
+  CHECK(refusal(two, {"release[2].at=3"}) ==
+        "--set: release[2].at: there is no release[2]; the scene has 2, counted from 0");
+  CHECK(refusal(two, {"release[1].at=-3"}) == "--set: release[1].at: got -3, expected a length from 0 to 1e+06 m");
+  CHECK(parse_scene(two, "a.toml", {"release[1].at=30"}).release[1].at == 30);
+  CHECK(parse_scene(snow, "a.toml", {"release[0].at=30"}).release[0].at == 30);
   CHECK(refusal(snow, {"schema_version=2"}) == "--set: schema_version: got 2, expected 1");
 }
 
