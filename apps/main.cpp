@@ -61,6 +61,7 @@ int run_program(int argc, char** argv) {
   add_check(app, chosen);
   add_scene(app, chosen);
   add_info(app, chosen);
+  add_completion(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

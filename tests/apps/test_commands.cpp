@@ -38,10 +38,14 @@ class Workplace {
 
   /// Runs the program with words for a shell, in the folder.
   Outcome run(const std::string& words, const std::string& environment = "") const {
+    return shell(environment + " '" SPINDRIFT_BINARY_DIR "/spindrift' " + words);
+  }
+
+  /// Runs a command line in the folder.
+  Outcome shell(const std::string& command) const {
     const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
-    const std::string line = "cd '" + folder_.string() + "' && " + environment +
-                             " '" SPINDRIFT_BINARY_DIR "/spindrift' " + words + " >'" + out.string() + "' 2>'" +
-                             err.string() + "'";
+    const std::string line =
+        "cd '" + folder_.string() + "' && " + command + " >'" + out.string() + "' 2>'" + err.string() + "'";
     const int status = std::system(line.c_str());
     const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
     fs::remove(out);
@@ -148,6 +152,23 @@ TEST_CASE("a scene that would not fit ends with code 6 and touches nothing", "[c
   CHECK(outcome.code == 6);
   CHECK(outcome.err.find("suspension.cell_size") != std::string::npos);
   CHECK(place.n_entries() == 1);
+}
+
+TEST_CASE("bash completes commands, options, keys and their words", "[commands]") {
+  const Workplace place;
+  place.write("script.bash", place.run("completion bash").out);
+  const auto completed = [&](const std::string& line) {
+    place.write("ask.bash", "source ./script.bash\nCOMP_LINE='" + line +
+                                "'\nCOMP_POINT=${#COMP_LINE}\n_spindrift\necho \"${COMPREPLY[*]}\"\n");
+    return place.shell("bash ask.bash").out;
+  };
+  CHECK(completed("spindrift ru") == "run\n");
+  CHECK(completed("spindrift run --thr") == "--threads\n");
+  CHECK(completed("spindrift run a.toml --set terrain.sh") == "terrain.shape=\n");
+  CHECK(completed("spindrift run a.toml --set terrain.shape=b") == "bumps\n");
+  CHECK(completed("spindrift run a.toml --set output.smoke=") == "true false\n");
+  CHECK(completed("spindrift scene --preset p") == "physical paper\n");
+  CHECK(completed("spindrift run a.toml --set zzz") == "\n");
 }
 
 TEST_CASE("check warns of what hardly makes sense, with place and reason", "[commands]") {
