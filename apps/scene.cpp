@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "simulation/registry.hpp"
 #include "simulation/scene_reader.hpp"
+#include "simulation/scene_reference.hpp"
 #include "simulation/scene_schema.hpp"
 #include "simulation/scene_writer.hpp"
 
@@ -12,7 +13,7 @@ namespace spindrift {
 namespace {
 
 struct Wanted {
-  bool schema = false, defaults = false;
+  bool schema = false, defaults = false, reference = false;
   std::string preset = "physical";
   SceneArguments print;
 };
@@ -20,6 +21,8 @@ struct Wanted {
 ExitCode show(const Wanted& wanted) {
   if (wanted.schema) {
     fmt::print("{}", scene_schema());
+  } else if (wanted.reference) {
+    fmt::print("{}", scene_reference());
   } else if (wanted.defaults) {
     fmt::print("{}", described_defaults(wanted.preset));
   } else {
@@ -38,6 +41,7 @@ void add_scene(CLI::App& app, Command& chosen) {
   CLI::Option_group* what = command->add_option_group("what");
   what->add_flag("--schema", wanted->schema, "the JSON Schema of scene files, for editors");
   what->add_flag("--defaults", wanted->defaults, "every key with its default, unit and meaning, as a scene file");
+  what->add_flag("--reference", wanted->reference, "the same as a page to read, in Markdown: docs/scene.md");
   what->add_option("--print", wanted->print.file, "the scene with every value, and where each one comes from")
       ->type_name("SCENE.toml");
   what->require_option(1);

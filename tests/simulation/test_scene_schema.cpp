@@ -1,10 +1,16 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "simulation/registry.hpp"
 #include "simulation/scene_reader.hpp"
+#include "simulation/scene_reference.hpp"
 #include "simulation/scene_schema.hpp"
+#include "simulation/scene_warnings.hpp"
 #include "simulation/scene_writer.hpp"
 
 using namespace spindrift;
@@ -71,6 +77,19 @@ TEST_CASE("The described defaults are a scene, once it has a box", "[scene]") {
   CHECK(scene.coupling->generation->constant == expected.coupling->generation->constant);
   CHECK(scene.dense_flow->friction_mu == expected.dense_flow->friction_mu);
   CHECK(scene.terrain->angle == Approx(expected.terrain->angle).epsilon(1e-7));
+}
+
+TEST_CASE("docs/scene.md is what the program writes, and its example is a scene", "[scene]") {
+  std::ifstream file(SPINDRIFT_SOURCE_DIR "/docs/scene.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  CHECK(page == scene_reference());
+  const std::size_t begin = page.find("```toml\n") + 8;
+  const std::string example = page.substr(begin, page.find("```", begin) - begin);
+  Origins origins;
+  const Scene scene = parse_scene(example, "example.toml", {}, &origins);
+  CHECK(scene.release.size() == 2);
+  CHECK(scene_warnings(scene, origins).empty());
+  for (const Key& key : keys()) CHECK(page.find(fmt::format("| `{}` | {}", key.name(), key.doc)) != std::string::npos);
 }
 
 TEST_CASE("Origins name the place in the file, --set, or nothing", "[scene]") {

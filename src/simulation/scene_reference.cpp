@@ -1,0 +1,123 @@
+#include "simulation/scene_reference.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cctype>
+
+#include "simulation/registry.hpp"
+#include "simulation/scene_values.hpp"
+#include "simulation/scene_writer.hpp"
+
+namespace spindrift {
+namespace {
+
+constexpr std::string_view guide = R"md(# Scene reference
+
+*Written by `spindrift scene --reference`; a test fails where this page and the program differ.*
+
+A scene is a TOML file. It begins with `schema_version = 1`; `[domain]` with its two corners is the only section that
+must be there. Every other section switches its part of the physics on, with the defaults below for what it leaves out.
+
+- **Numbers** are SI, or text with a unit: `support_radius = 0.21`, `"21 cm"`, `angle = "38 deg"`, `"2 min"`,
+  `"72 km/h"`. A plain angle is in radians.
+- **Vectors** have as many numbers as the scene has dimensions: `[x, z]` in 2D, `[x, y, z]` in 3D. z points up. Ground
+  profiles and polygons are pairs `(x, z)` in both; in 3D they go on along y.
+- **2D** is a slice one metre wide: masses are per metre of width.
+- **Several of a kind**: `[[release]]`, `[[obstacle]]` and `[[smoke]]` may stand more than once; a single one may also
+  be written `[release]`. `--set release[1].thickness=3` changes the second of them.
+- **Presets**: `scene.preset` chooses the defaults: `physical`, measured snow, or `paper`, the constants of the paper.
+- **Mistakes** are told with file, line and column, what was expected and what was probably meant, all at once, before
+  anything is written. What can be run but hardly makes sense gets a warning with its reason.
+
+`spindrift scene --print SCENE.toml` shows a scene with every value and where it comes from, `spindrift check
+SCENE.toml` what it will cost, `spindrift scene --schema` gives editors a JSON Schema.
+
+```toml
+schema_version = 1
+[scene]
+end_time = "8 s"
+[domain]
+lower = ["0 m", "0 m"]
+upper = ["120 m", "48 m"]
+[terrain]
+start = ["0 m", "42 m"]
+angle = "38 deg"
+drop = "36 m"
+[dense_flow]                  # flowing snow
+[[release]]                   # a slab on the slope ...
+length = "5 m"
+thickness = "2 m"
+[[release]]                   # ... and a ball that falls on it
+shape = "ball"
+center = ["30 m", "35 m"]
+radius = "1 m"
+[[obstacle]]                  # a wall across the run-out
+lower = ["70 m", "0 m"]
+upper = ["72 m", "9 m"]
+[cover]                       # resting snow, and what sweeps it along
+[entrainment]
+[suspension]                  # the air, and what raises smoke
+[coupling.drag]
+[coupling.generation]
+[coupling.adhesion]
+```
+)md";
+
+/// In Markdown code, angles in degrees; empty: what has to be said, or follows from the dimension.
+std::string default_text(const Key& key, Scene& scene) {
+  const Slot field = key.field(scene);
+  if (!has_value(field)) return "";
+  if (key.unit == "rad") return fmt::format("`\"{}\"`", degrees_text(*std::get<double*>(field)));
+  return fmt::format("`{}`", value_text(field));
+}
+
+struct Grouping {
+  std::string operator()(const std::vector<double>*) const { return "a vector, each "; }
+  std::string operator()(const std::array<double, 2>*) const { return "a pair, each "; }
+  std::string operator()(const std::vector<std::array<double, 2>>*) const { return "a list of pairs, each "; }
+  std::string operator()(const void*) const { return ""; }
+};
+
+std::string taken(const Key& key, Scene& scene) {
+  return std::visit(Grouping{}, key.field(scene)) + expectation(key);
+}
+
+std::string meaning(const Key& key) {
+  std::string text(key.doc);
+  if (!key.condition.name.empty())
+    text += fmt::format(" *({} {})*", key.condition.name, fmt::join(key.condition.values, ", "));
+  if (!key.source.empty()) text += fmt::format(" [{}]", key.source);
+  return text;
+}
+
+std::string heading(const Section& section) {
+  return section.repeats ? fmt::format("\n## `[[{}]]`\n\n", section.path)
+                         : fmt::format("\n## `[{}]`\n\n", section.path);
+}
+
+}  // namespace
+
+std::string scene_reference() {
+  Scene physical = complete_scene("physical"), paper = complete_scene("paper");
+  std::string text(guide);
+  for (const Section& section : sections()) {
+    std::string doc(section.doc);
+    doc[0] = static_cast<char>(std::toupper(doc[0]));
+    text += heading(section) + doc + ".\n\n| key | meaning | takes | default |\n| --- | --- | --- | --- |\n";
+    for (const Key& key : keys()) {
+      if (key.section() != section.path) continue;
+      std::string standard = default_text(key, physical);
+      if (const std::string other = default_text(key, paper); other != standard && key.path != "scene.preset")
+        standard += fmt::format("; `paper`: {}", other);
+      text += fmt::format("| `{}` | {} | {} | {} |\n", key.name(), meaning(key), taken(key, physical), standard);
+    }
+  }
+  text +=
+      "\nIn brackets: the equation or section of the paper, or the entry of [departures.md](departures.md), that the "
+      "key "
+      "belongs to.\n";
+  return text;
+}
+
+}  // namespace spindrift
