@@ -22,7 +22,8 @@ void row(std::string_view name, fmt::format_string<T...> format, T&&... values) 
 ExitCode check(const SceneArguments& arguments) {
   std::filesystem::path folder;
   Plan plan;
-  const Scene scene = read_and_judge(arguments, folder, plan);
+  const Scene scene =
+      read_and_judge(arguments, folder, plan, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
 
   std::string grid = "none";
   for (std::size_t k = 0; k < plan.grid.size(); ++k)
@@ -41,14 +42,14 @@ ExitCode check(const SceneArguments& arguments) {
 
 }  // namespace
 
-Scene read_and_judge(const SceneArguments& arguments, std::filesystem::path& folder, Plan& plan, bool quiet) {
+Scene read_and_judge(const SceneArguments& arguments, std::filesystem::path& folder, Plan& plan,
+                     const std::function<void(const std::string&)>& warn) {
   Origins origins;
   const Scene scene = read_scene(arguments.file, arguments.settings, &origins);
   if (folder.empty()) folder = "runs/" + scene.scene.name;
   plan = plan_scene(scene);
   require_fit(scene, plan, folder);
-  if (quiet) return scene;
-  for (const std::string& line : scene_warnings(scene, origins)) fmt::print(stderr, "{}\n", line);
+  for (const std::string& line : scene_warnings(scene, origins)) warn(line);
   return scene;
 }
 

@@ -27,9 +27,10 @@ struct SceneArguments {
   std::vector<std::string> settings;
 };
 
-/// Reads the scene, refuses one that does not fit into this machine, and tells on stderr what hardly makes sense in it.
+/// Reads the scene, refuses one that does not fit into this machine, and warns of what hardly makes sense in it.
 /// folder   where its results will go; empty: runs/ and the scene's name
-Scene read_and_judge(const SceneArguments& arguments, std::filesystem::path& folder, Plan& plan, bool quiet = false);
+Scene read_and_judge(const SceneArguments& arguments, std::filesystem::path& folder, Plan& plan,
+                     const std::function<void(const std::string&)>& warn);
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
 /// The option --set alone.

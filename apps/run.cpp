@@ -1,6 +1,7 @@
 #include "simulation/run.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -8,7 +9,7 @@
 
 #include "commands.hpp"
 #include "plain_text.hpp"
-#include "progress_line.hpp"
+#include "run_talk.hpp"
 #include "simulation/plan.hpp"
 #include "simulation/scene_reader.hpp"
 
@@ -19,16 +20,22 @@ struct RunArguments {
   SceneArguments scene;
   std::string folder, until, seed, frames_per_second;
   int threads = 0;
-  bool no_preview = false, quiet = false;
+  std::string profile;
+  bool no_preview = false, quiet = false, log_json = false;
 };
 
-std::atomic<bool> stop_asked = false;
+std::atomic<bool> stop_asked = false, speak_on_signals = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// The first signal asks the run to stop after its step; a second one ends the program at once.
 void stop_on_signals() {
   struct sigaction action {};
-  action.sa_handler = [](int) { stop_asked = true; };
+  action.sa_handler = [](int) {
+    stop_asked = true;
+    constexpr std::string_view text = "\nstopping after this step; once more ends at once\n";
+    if (speak_on_signals) [[maybe_unused]]
+      const auto n = write(STDERR_FILENO, text.data(), text.size());
+  };
   action.sa_flags = SA_RESETHAND;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -44,42 +51,39 @@ std::vector<std::string> settings(const RunArguments& arguments) {
   return all;
 }
 
-std::string_view outcome(ExitCode code) {
-  switch (code) {
-    case ExitCode::done:
-      return "done";
-    case ExitCode::resumable:
-      return "stopped";
-    case ExitCode::unstable:
-      return "unstable";
-    default:
-      return "failed";
-  }
+TalkStyle style_of(const RunArguments& arguments) {
+  if (arguments.log_json) return TalkStyle::json;
+  return arguments.quiet ? TalkStyle::quiet : TalkStyle::text;
 }
 
 ExitCode run(const RunArguments& arguments) {
   std::filesystem::path folder = arguments.folder;
   Plan plan;
-  const Scene scene = read_and_judge({arguments.scene.file, settings(arguments)}, folder, plan, arguments.quiet);
+  RunTalk talk(style_of(arguments));
+  const auto warn = [&talk](const std::string& line) { talk.warn(line); };
+  const Scene scene = read_and_judge({arguments.scene.file, settings(arguments)}, folder, plan, warn);
+  talk.start(scene, plan, folder);
+  speak_on_signals = style_of(arguments) == TalkStyle::text;
   stop_on_signals();
 
-  ProgressLine line;
   RunOptions options;
   options.folder = folder;
   options.quiet = arguments.quiet;
   options.threads = arguments.threads;
   options.scene_file = arguments.scene.file;
   options.stop = &stop_asked;
-  if (!arguments.quiet) options.on_progress = [&line](const Progress& progress) { line.show(progress); };
-  const ExitCode code = run_scene(scene, options);
-
-  if (!arguments.quiet) {
-    line.end();
-    fmt::print(stderr, "{}: {:.6g} s simulated in {} steps and {}\n", outcome(code), line.last().time,
-               count_text(static_cast<double>(line.last().step)), duration_text(line.last().wall_seconds));
+  options.profile = arguments.profile;
+  options.on_progress = [&talk](const Progress& progress) { talk.progress(progress); };
+  try {
+    const ExitCode code = run_scene(scene, options);
+    talk.end(code == ExitCode::resumable ? "stopped" : "done");
+    fmt::print("{}\n", folder.string());
+    return code;
+  } catch (const Error& error) {
+    talk.fail(error);
+    if (!arguments.log_json) throw;
+    return error.code();
   }
-  fmt::print("{}\n", folder.string());
-  return code;
 }
 
 }  // namespace
@@ -99,6 +103,9 @@ void add_run(CLI::App& app, Command& chosen) {
       ->type_name("F");
   command->add_flag("--no-preview", arguments->no_preview, "draw no pictures");
   command->add_flag("--quiet", arguments->quiet, "say nothing unless it fails");
+  command->add_flag("--log-json", arguments->log_json, "tell progress as JSON, one object a line, for programs");
+  command->add_option("--profile", arguments->profile, "write the time of every pass, for ui.perfetto.dev")
+      ->type_name("FILE");
   command->footer(
       "Example:  spindrift run configs/paper/fig09a_bumpy.toml -o runs/long --until 20 --set cover.depth=0.8\n"
       "Ctrl-C ends the run cleanly after the step at hand.");

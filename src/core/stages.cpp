@@ -8,9 +8,13 @@ Stages::Scope::Scope(Stages& stages, std::size_t index)
     : stages_(stages), index_(index), start_(std::chrono::steady_clock::now()) {}
 
 Stages::Scope::~Scope() {
+  using Seconds = std::chrono::duration<double>;
   Stage& stage = stages_.stages_[index_];
-  stage.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double duration = Seconds(std::chrono::steady_clock::now() - start_).count();
+  stage.seconds += duration;
   ++stage.passes;
+  if (stages_.kept_.size() < stages_.most_)
+    stages_.kept_.push_back({static_cast<std::uint32_t>(index_), Seconds(start_ - stages_.begin_).count(), duration});
 }
 
 Stages::Scope Stages::time(std::string_view name) {
@@ -19,6 +23,11 @@ Stages::Scope Stages::time(std::string_view name) {
   const auto index = static_cast<std::size_t>(found - stages_.begin());
   if (found == stages_.end()) stages_.push_back({std::string(name)});
   return Scope(*this, index);
+}
+
+void Stages::keep_passes(std::size_t most) {
+  most_ = most;
+  begin_ = std::chrono::steady_clock::now();
 }
 
 std::uint64_t Stages::passes(std::string_view name) const {

@@ -18,6 +18,12 @@ class Stages {
     std::uint64_t passes = 0;
   };
 
+  /// One pass of a stage.
+  struct Pass {
+    std::uint32_t stage;             ///< in all()
+    double start = 0, duration = 0;  ///< [s], start since keep_passes()
+  };
+
   /// Times from its construction to its destruction.
   class Scope {
    public:
@@ -41,8 +47,15 @@ class Stages {
   /// Passes of the stage `name`, and of every stage below it ("dense_flow" counts "dense_flow.viscosity").
   std::uint64_t passes(std::string_view name) const;
 
+  /// From now on remembers every single pass, the first `most` of them.
+  void keep_passes(std::size_t most);
+  const std::vector<Pass>& kept() const { return kept_; }
+
  private:
   std::vector<Stage> stages_;
+  std::vector<Pass> kept_;
+  std::size_t most_ = 0;
+  std::chrono::steady_clock::time_point begin_;
 };
 
 }  // namespace spindrift

@@ -29,7 +29,8 @@ struct RunOptions {
   int threads = 0;                                   ///< 0: all of the machine's
   std::string scene_file;                            ///< as the user named it, for run.json
   std::function<void(const Progress&)> on_progress;  ///< after every step; may be empty
-  const std::atomic<bool>* stop = nullptr;           ///< once true, the run ends after its step, status "stopped"
+  std::filesystem::path profile;            ///< where the time of every pass goes, as a Chrome trace; may be empty
+  const std::atomic<bool>* stop = nullptr;  ///< once true, the run ends after its step, status "stopped"
 };
 
 /// Runs a scene to its end, writing the run folder. Returns done, unstable, or resumable where it was stopped.

@@ -43,6 +43,7 @@ class Simulation {
   const StepReport<Dim>& report() const { return report_; }
   const MassLedger& masses() const { return masses_; }
   const Stages& stages() const { return stages_; }
+  Stages& stages() { return stages_; }
   std::size_t n_dense_initial() const { return n_dense_initial_; }
   double dense_mass() const;  ///< [kg]
   double cover_mass() const;  ///< [kg]
