@@ -187,6 +187,19 @@ TEST_CASE("Every scene file that the pages name exists", "[docs]") {
   CHECK(n_scenes > 0);
 }
 
+TEST_CASE("Every path of the sources that the pages name in code exists", "[docs]") {
+  static const std::regex path(R"rx(`((src|apps|tests|configs|cmake|benchmarks|docs)/[A-Za-z0-9_/.-]*)`)rx");
+  int n_paths = 0;
+  for (const fs::path& page : pages()) {
+    for_each_match(text_of(page), path, [&](const std::smatch& m) {
+      CAPTURE(page.string(), m.str());
+      CHECK(fs::exists(root / m[1].str()));
+      ++n_paths;
+    });
+  }
+  CHECK(n_paths > 0);
+}
+
 TEST_CASE("Every scene key that the pages name in code is in the registry", "[docs]") {
   static const std::regex key(
       R"rx(`((scene|domain|terrain|release|dense_flow|cover|suspension|coupling|entrainment|output)(\.[a-z_]+)*)\.([a-z_]+)( = [^`]*)?`)rx");
