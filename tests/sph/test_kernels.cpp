@@ -59,7 +59,7 @@ TEMPLATE_TEST_CASE_SIG("the volume sum of a full lattice is one", "[kernels]", (
   if (Dim == 2) CHECK(sum == Approx(1.0008).margin(1e-4));
 }
 
-TEST_CASE("the number-density kernel has its floor at 0.05 h", "[kernels]") {
+TEST_CASE("the number-density kernel has its floor at h / 2", "[kernels]") {
   CHECK(number_density_kernel(0.5, 1) == Approx(1));
   CHECK(number_density_kernel(0.75, 1) == Approx(1.0 / 3));
   CHECK(number_density_kernel(0, 1) == 1);
