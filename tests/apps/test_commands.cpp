@@ -1,5 +1,6 @@
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdio>
@@ -7,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 namespace {
@@ -234,6 +237,27 @@ TEST_CASE("a run goes to its end, names its folder and can be asked about", "[co
   CHECK(quiet.code == 0);
   CHECK(quiet.out == "there\n");
   CHECK(quiet.err.empty());
+}
+
+TEST_CASE("a run tells programs where it stands, and keeps a log and a profile", "[commands]") {
+  const Workplace place;
+  place.write("a.toml", scene);
+  const Outcome outcome = place.run("run a.toml -o out --log-json --profile trace.json");
+  CHECK(outcome.code == 0);
+  std::istringstream lines(outcome.err);
+  std::vector<std::string> events;
+  for (std::string line; std::getline(lines, line);) events.push_back(nlohmann::json::parse(line).at("event"));
+  REQUIRE(events.size() >= 3);
+  CHECK(events.front() == "start");
+  CHECK(events.back() == "end");
+  CHECK(std::count(events.begin(), events.end(), "progress") >= 1);
+  CHECK(text_of(place.folder() / "out/log.txt").find("done: 0.02 of 0.02 s simulated in ") != std::string::npos);
+  const nlohmann::json trace = nlohmann::json::parse(text_of(place.folder() / "trace.json"));
+  CHECK(trace["traceEvents"].size() > 10);
+  const Outcome bad = place.run("run a.toml -o a.toml/out --log-json");
+  CHECK(bad.code == 5);
+  const nlohmann::json error = nlohmann::json::parse(bad.err.substr(bad.err.rfind("{\"event\":\"error\"")));
+  CHECK(error["code"] == 5);
 }
 
 TEST_CASE("a run that is asked to stop ends after its step", "[commands]") {

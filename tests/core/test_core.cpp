@@ -117,3 +117,19 @@ TEST_CASE("Stages count passes by name and below", "[core]") {
   CHECK(stages.passes("suspension") == 0);
   CHECK(stages.all().size() == 2);
 }
+
+TEST_CASE("Stages keep their passes when asked to, and no more than asked for", "[core]") {
+  Stages stages;
+  { const auto timed = stages.time("before"); }
+  stages.keep_passes(3);
+  for (int i = 0; i < 4; ++i) {
+    const auto outer = stages.time("step");
+    const auto inner = stages.time("step.part");
+  }
+  REQUIRE(stages.kept().size() == 3);
+  CHECK(stages.all()[stages.kept()[0].stage].name == "step.part");
+  CHECK(stages.all()[stages.kept()[1].stage].name == "step");
+  CHECK(stages.kept()[1].start <= stages.kept()[0].start);
+  CHECK(stages.kept()[1].duration >= stages.kept()[0].duration);
+  CHECK(stages.passes("step") == 8);
+}
