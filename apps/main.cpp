@@ -51,9 +51,18 @@ std::string complaint(const CLI::App& app, int argc, char** argv, const CLI::Par
 int run_program(int argc, char** argv) {
   CLI::App app{
       "Spindrift simulates mixed-motion avalanches: flowing snow, the cover that it sweeps along, and the snow smoke\n"
-      "above it.\n\n"
-      "Example:  spindrift run configs/paper/fig09a_bumpy.toml -o runs/first",
+      "above it.",
       "spindrift"};
+  app.footer(
+      "First steps:\n"
+      "  spindrift run configs/quickstart.toml    a small avalanche; its pictures are in runs/quickstart/preview\n"
+      "  spindrift info runs/quickstart           what it came to\n"
+      "  spindrift scene --reference              what a scene of your own may say\n"
+      "  spindrift check my_slope.toml            its mistakes, and what it will cost\n\n"
+      "Every command has its own --help.\n"
+      "Example:  spindrift run configs/paper/fig09a_bumpy.toml -o runs/first\n"
+      "Exit codes: 0 done, 2 bad input, 3 unstable, 4 bad file, 5 input or output failed, 6 would not fit, 70 a bug,\n"
+      "75 stopped.");
   app.set_version_flag("--version", "spindrift " SPINDRIFT_VERSION);
   app.require_subcommand(1);
   Command chosen;

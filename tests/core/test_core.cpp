@@ -60,14 +60,16 @@ TEST_CASE("A thread limit holds while it lives", "[core]") {
     CHECK(n_threads() == limit);
     std::mutex mutex;
     std::set<std::thread::id> seen;
-    parallel_for(
-        64,
-        [&](std::size_t) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(2));
-          const std::lock_guard lock(mutex);
-          seen.insert(std::this_thread::get_id());
-        },
-        1);
+    // On a busy machine a second thread may come late.
+    for (int round = 0; round < 50 && seen.size() < 2; ++round)
+      parallel_for(
+          64,
+          [&](std::size_t) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            const std::lock_guard lock(mutex);
+            seen.insert(std::this_thread::get_id());
+          },
+          1);
     CHECK(seen.size() <= static_cast<std::size_t>(limit));
     if (limit > 1) CHECK(seen.size() > 1);
   }
