@@ -71,12 +71,15 @@ ExitCode run(const RunArguments& arguments) {
   options.scene_file = arguments.scene.file;
   options.stop = &stop_asked;
   if (!arguments.quiet) options.on_progress = [&line](const Progress& progress) { line.show(progress); };
+  std::vector<std::string> notes;
+  options.on_note = [&notes](const std::string& note) { notes.push_back(note); };
   const ExitCode code = run_scene(scene, options);
 
   if (!arguments.quiet) {
     line.end();
     fmt::print(stderr, "{}: {:.6g} s simulated in {} steps and {}\n", outcome(code), line.last().time,
                count_text(static_cast<double>(line.last().step)), duration_text(line.last().wall_seconds));
+    for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
   }
   fmt::print("{}\n", folder.string());
   return code;
@@ -97,7 +100,7 @@ void add_run(CLI::App& app, Command& chosen) {
   command->add_option("--seed", arguments->seed, "of all random numbers")->type_name("N");
   command->add_option("--frames-per-second", arguments->frames_per_second, "frames written per simulated second")
       ->type_name("F");
-  command->add_flag("--no-preview", arguments->no_preview, "draw no pictures");
+  command->add_flag("--no-preview", arguments->no_preview, "draw no pictures, make no film");
   command->add_flag("--quiet", arguments->quiet, "say nothing unless it fails");
   command->footer(
       "Example:  spindrift run configs/paper/fig09a_bumpy.toml -o runs/long --until 20 --set cover.depth=0.8\n"

@@ -21,11 +21,9 @@ Progress progress_of(const Simulation<Dim>& s, double wall_seconds) {
   return progress;
 }
 
+/// Steps until the end, or until asked to stop.
 template <int Dim>
-ExitCode run_in(const Scene& scene, const RunOptions& options) {
-  const ThreadLimit threads(options.threads);
-  Simulation<Dim> simulation(scene);
-  Recorder<Dim> recorder(scene, options);
+ExitCode step_to_end(Simulation<Dim>& simulation, Recorder<Dim>& recorder, const RunOptions& options) {
   recorder.follow(simulation);
   while (!simulation.done()) {
     if (options.stop && options.stop->load()) {
@@ -44,6 +42,19 @@ ExitCode run_in(const Scene& scene, const RunOptions& options) {
   }
   recorder.finish(simulation, "done");
   return ExitCode::done;
+}
+
+template <int Dim>
+ExitCode run_in(const Scene& scene, const RunOptions& options) {
+  const ThreadLimit threads(options.threads);
+  Simulation<Dim> simulation(scene);
+  Recorder<Dim> recorder(scene, options);
+  try {
+    return step_to_end(simulation, recorder, options);
+  } catch (const Error& failure) {
+    if (failure.code() == ExitCode::io_failed) recorder.give_up(simulation, failure.what());
+    throw;
+  }
 }
 
 }  // namespace
