@@ -20,7 +20,6 @@ from spindrift_reader import Run
 
 CLOUD = 1e-3  # [kg/m^3], the thinnest smoke that is drawn
 GROUND = "#b5a58f"
-INK = "#333333"
 
 
 def arguments():
@@ -116,7 +115,7 @@ def draw_snow(axes, snow, cloud, dim, window):
 
 def draw_smoke(axes, snow, cloud, dim, window):
     density = side_view(cloud)[0]
-    norm = LogNorm(CLOUD, max(float(density.max()), 10 * CLOUD))
+    norm = LogNorm(CLOUD, max(float(density.max()), 100 * CLOUD))
     draw_grid(axes, density, density < CLOUD, cloud, "density of smoke [kg/m³]", cmap="Blues", norm=norm)
 
 
@@ -152,6 +151,10 @@ def lines(axes, time, table, entries):
 
 
 def legend(axes):
+    """A small legend where it covers least; a word where there is nothing to tell."""
+    if not axes.get_legend_handles_labels()[0]:
+        axes.text(0.5, 0.5, "zero throughout", transform=axes.transAxes, ha="center", color="gray")
+        return
     axes.legend(fontsize=7.5, framealpha=0.7, borderpad=0.3, labelspacing=0.25, handlelength=1.4)
 
 
@@ -180,8 +183,7 @@ def draw_masses(axes, time, table, run):
         axes.set_ylim(max(low, 1e-5 * high), high)
     else:
         axes.set_ylim(0, None)
-    if drawn > 0:
-        legend(axes)
+    legend(axes)
 
 
 def draw_counts(axes, time, table, run):
@@ -192,9 +194,12 @@ def draw_counts(axes, time, table, run):
 
 
 def draw_mass_error(axes, time, table, run):
-    axes.plot(time, table["mass_error"], color=INK, linewidth=0.8)
+    if np.any(table["mass_error"] != 0):
+        axes.plot(time, table["mass_error"], color="#333333", linewidth=0.8)
+        axes.ticklabel_format(axis="y", style="sci", scilimits=(0, 0))
+    else:
+        legend(axes)
     axes.set(title="ledger: mass error", ylabel="relative to the initial mass")
-    axes.ticklabel_format(axis="y", style="sci", scilimits=(0, 0))
 
 
 def draw_sums(axes, time, table, entries, of, run):
@@ -203,10 +208,9 @@ def draw_sums(axes, time, table, entries, of, run):
         given = np.cumsum(table[name + "_x"])
         if np.any(given != 0):
             axes.plot(time, given, label=label, linewidth=1.3)
-    axes.set(title=f"ledger: momentum of the {of} along x", ylabel="[kg m/s per m]" if run.dim == 2 else "[kg m/s]")
+    axes.set(title=f"ledger: the {of}'s momentum along x", ylabel="[kg m/s per m]" if run.dim == 2 else "[kg m/s]")
     axes.ticklabel_format(axis="y", style="sci", scilimits=(-3, 3))
-    if axes.get_legend_handles_labels()[0]:
-        legend(axes)
+    legend(axes)
 
 
 def draw_flow_momentum(axes, time, table, run):
