@@ -59,10 +59,10 @@ Error nothing_chosen(const ExportArguments& arguments) {
   }
   const std::string kind = arguments.only.empty() ? "" : " of " + arguments.only;
   if (first > last)
-    return {
-        ExitCode::bad_input,
-        fmt::format("{}: has no frames{}, expected {}; the run may have no such layer, or its [output] switches frames off", arguments.folder,
-                    kind, frame_path(arguments.only.empty() ? "particles" : arguments.only, 0).string())};
+    return {ExitCode::bad_input,
+            fmt::format(
+                "{}: has no frames{}, expected {}; the run may have no such layer, or its [output] switches frames off",
+                arguments.folder, kind, frame_path(arguments.only.empty() ? "particles" : arguments.only, 0).string())};
   return {ExitCode::bad_input, fmt::format("{}: there is no frame {}{}, expected one of {} to {}", arguments.folder,
                                            arguments.frame.value_or(0), kind, first, last)};
 }

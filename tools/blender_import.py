@@ -78,7 +78,7 @@ def snow_material():
 
 
 def smoke_material(hiding_density):
-    """See-through: alpha = 1 - exp(-density / hiding_density * edge of the cell), over which spheres of it overlap."""
+    """See-through: alpha = 1 - exp(-density / hiding_density * edge of the cell), as far as spheres overlap."""
     material = bpy.data.materials.new("smoke")
     material.use_nodes = True
     material.blend_method = "BLEND"

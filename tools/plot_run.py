@@ -230,7 +230,7 @@ def draw_air_momentum(axes, time, table, run):
         "flow": "exchange_on_grid",
         "flow's core": "air_core",
         "gravity on smoke": "gravity_on_smoke",
-        "ground": "ground_on_air",
+        "sinking cover": "ground_on_air",
         "advection": "air_advection",
         "smoke's transport": "air_smoke_transport",
         "diffusion": "air_diffusion",

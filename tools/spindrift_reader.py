@@ -83,7 +83,7 @@ class Run:
         position      (n, dim)  x, z or x, y, z   [m]          velocity      (n, dim)   [m/s]
         density       (n,)      [kg/m^3]                       pressure      (n,)       [Pa]
         mass          (n,)      [kg], in 2D [kg/m]             entrained_at  (n,)       [s], -1: released
-        layer         (n,)      0 dense flow, 1 cover          overlap       (n,)       1: exchanges with air
+        layer         (n,)      0 dense flow, 1 cover          overlap       (n,)       1: in the overlap region
         id            (n,)      int64                          time          float      [s]
 
         frame     its number; negative ones count from the last

@@ -1,7 +1,7 @@
 """Reads a run and its exports with h5py, VTK, csv and the project's own reader, and compares every value.
 
 Usage: read_back_run.py RUN CSV_FOLDER VTK_FOLDER PLY_FOLDER SMOKE_ABOVE
-What h5py reads from the VTKHDF frames is the truth. Prints one line a format; ends with an error at the first difference.
+What h5py reads from the VTKHDF frames is the truth. Prints a line a format; ends with an error at the first difference.
 """
 
 import csv

@@ -143,3 +143,24 @@ TEST_CASE("The Python tools read and draw a run, whatever layers it has", "[expo
       place.shell(python + " " + tools + "plot_run.py r --frame 999").err.find("r: there is no frame 999, it has 0") ==
       0);
 }
+
+TEST_CASE("Blender draws an export, with its smoke", "[export][slow]") {
+  const Workplace place;
+  if (place.shell("blender --version").code != 0) {
+    WARN("skipped: no blender");
+    return;
+  }
+  place.write("a.toml", avalanche);
+  REQUIRE(place.run("run a.toml -o r --quiet --no-preview").code == 0);
+  REQUIRE(place.run("export r --to ply --every 5").code == 0);
+  const auto blender = [&](const std::string& words) {
+    return place.shell("blender -b --python-exit-code 9 -P " + tools + "blender_import.py -- " + words);
+  };
+  const Outcome drawn = blender("r/export --width 64 --samples 1 --render a.png --save a.blend");
+  CAPTURE(drawn.out, drawn.err);
+  CHECK(drawn.code == 0);
+  CHECK(contains(drawn.out, "2 frames of r/export\n"));
+  CHECK(text_of(place.folder() / "a.png").starts_with("\x89PNG"));
+  CHECK(fs::exists(place.folder() / "a.blend"));
+  CHECK(contains(blender("absent").err, "absent: no PLY files, expected those of `spindrift export RUN --to ply`"));
+}
