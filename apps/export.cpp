@@ -130,8 +130,8 @@ ExitCode export_run(const ExportArguments& arguments) {
       if (options.format == "vtk" && !series.empty()) commit(out / (layer + ".pvd"), pvd_text(series));
     }
   }
-  fmt::print(stderr, "{} frames of particles and {} of smoke as {}: {}\n", chosen[0].size(), chosen[1].size(),
-             options.format, bytes_text(bytes_written));
+  fmt::print(stderr, "{} frame{} of particles and {} of smoke as {}: {}\n", chosen[0].size(),
+             chosen[0].size() == 1 ? "" : "s", chosen[1].size(), options.format, bytes_text(bytes_written));
   fmt::print("{}\n", out.string());
   return ExitCode::done;
 }
