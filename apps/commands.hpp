@@ -20,6 +20,7 @@ void add_check(CLI::App& app, Command& chosen);
 void add_scene(CLI::App& app, Command& chosen);
 void add_info(CLI::App& app, Command& chosen);
 void add_completion(CLI::App& app, Command& chosen);
+void add_export(CLI::App& app, Command& chosen);
 
 /// A scene file and what the command line changes in it.
 struct SceneArguments {

@@ -1,32 +1,15 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "run_folder.hpp"
 
 namespace spindrift {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json read_run(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "run.json";
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    throw Error(ExitCode::bad_input, folder.string() + ": not a run folder, it has no run.json");
-  std::ifstream stream(file);
-  if (!stream) throw Error(ExitCode::io_failed, file.string() + ": cannot be read");
-  try {
-    Json run = Json::parse(stream);
-    if (run.is_object()) return run;
-  } catch (const Json::exception& problem) {
-    throw Error(ExitCode::incompatible_file, file.string() + ": " + problem.what());
-  }
-  throw Error(ExitCode::incompatible_file, file.string() + ": expected an object");
-}
 
 /// One line a value, members of members joined by dots.
 void print(const std::string& path, const Json& value) {
@@ -38,7 +21,7 @@ void print(const std::string& path, const Json& value) {
 }
 
 ExitCode info(const std::string& folder, bool as_json) {
-  const Json run = read_run(folder);
+  const Json run = read_run_json(folder);
   if (as_json) {
     fmt::print("{}\n", run.dump(2));
   } else {

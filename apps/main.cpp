@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -71,6 +72,7 @@ int run_program(int argc, char** argv) {
   add_scene(app, chosen);
   add_info(app, chosen);
   add_completion(app, chosen);
+  add_export(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -86,6 +88,8 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace spindrift;
+  // A file above the limit of its size (ulimit -f) is a failed write like any other, told with its name.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run_program(argc, argv);
   } catch (const Error& error) {

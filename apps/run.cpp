@@ -74,6 +74,7 @@ ExitCode run(const RunArguments& arguments) {
   options.stop = &stop_asked;
   options.profile = arguments.profile;
   options.on_progress = [&talk](const Progress& progress) { talk.progress(progress); };
+  options.on_note = [&talk](const std::string& note) { talk.note(note); };
   try {
     const ExitCode code = run_scene(scene, options);
     talk.end(code == ExitCode::resumable ? "stopped" : "done");
@@ -101,7 +102,7 @@ void add_run(CLI::App& app, Command& chosen) {
   command->add_option("--seed", arguments->seed, "of all random numbers")->type_name("N");
   command->add_option("--frames-per-second", arguments->frames_per_second, "frames written per simulated second")
       ->type_name("F");
-  command->add_flag("--no-preview", arguments->no_preview, "draw no pictures");
+  command->add_flag("--no-preview", arguments->no_preview, "draw no pictures, make no film");
   command->add_flag("--quiet", arguments->quiet, "say nothing unless it fails");
   command->add_flag("--log-json", arguments->log_json, "tell progress as JSON, one object a line, for programs");
   command->add_option("--profile", arguments->profile, "write the time of every pass, for ui.perfetto.dev")

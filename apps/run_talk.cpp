@@ -109,16 +109,23 @@ void RunTalk::progress(const Progress& progress) {
   }
 }
 
+void RunTalk::note(const std::string& line) {
+  log(line);
+  notes_.push_back(line);
+}
+
 void RunTalk::end(std::string_view outcome) {
   const std::string text = end_text(outcome, last_);
   log(text);
   if (style_ == TalkStyle::json) {
     Json event = progress_json("end", last_);
     event["status"] = outcome;
+    event["notes"] = notes_;
     say(event);
   } else if (style_ == TalkStyle::text) {
     if (on_terminal_ && !line_.first) fmt::print(stderr, "\r{}\x1b[K\n", progress_text(last_));
     fmt::print(stderr, "{}\n", text);
+    for (const std::string& note : notes_) fmt::print(stderr, "{}\n", note);
   }
 }
 

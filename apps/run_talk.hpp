@@ -38,6 +38,8 @@ class RunTalk {
   void start(const Scene& scene, const Plan& plan, const std::filesystem::path& folder);
   void warn(const std::string& line);
   void progress(const Progress& progress);
+  /// Something to tell once the run has ended.
+  void note(const std::string& line);
   /// outcome: "done", "stopped", "unstable"
   void end(std::string_view outcome);
   void fail(const Error& error);
@@ -49,6 +51,7 @@ class RunTalk {
   bool on_terminal_;
   Pace line_, log_pace_;
   Progress last_;
+  std::vector<std::string> notes_;
   std::filesystem::path folder_;
   std::vector<std::string> pending_;  ///< lines for log.txt from before the folder existed
   std::shared_ptr<spdlog::logger> log_;

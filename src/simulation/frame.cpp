@@ -1,6 +1,8 @@
 #include "simulation/frame.hpp"
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 
 #include "io/digest.hpp"
 
@@ -53,13 +55,16 @@ StoredArray vectors_of(const Simulation<Dim>& simulation, const std::vector<Memb
   return {name, Dim, std::move(values)};
 }
 
+/// units: of the arrays that have one, by their names.
 template <int Dim>
-Attributes attributes_of(const Simulation<Dim>& simulation) {
-  return {{"scene", simulation.scene().scene.name},
-          {"version", std::string(SPINDRIFT_VERSION)},
-          {"seed", static_cast<std::int64_t>(simulation.scene().scene.seed)},
-          {"time", simulation.time()},
-          {"step", static_cast<std::int64_t>(simulation.n_steps())}};
+Attributes attributes_of(const Simulation<Dim>& simulation, std::initializer_list<std::array<const char*, 2>> units) {
+  Attributes attributes{{"scene", simulation.scene().scene.name},
+                        {"version", std::string(SPINDRIFT_VERSION)},
+                        {"seed", static_cast<std::int64_t>(simulation.scene().scene.seed)},
+                        {"time", simulation.time()},
+                        {"step", static_cast<std::int64_t>(simulation.n_steps())}};
+  for (const auto& [array, unit] : units) attributes.push_back({std::string("unit.") + array, std::string(unit)});
+  return attributes;
 }
 
 std::vector<NamedArray> views(const std::vector<StoredArray>& arrays) {
@@ -85,7 +90,12 @@ ParticleFrame particle_frame(const Simulation<Dim>& s) {
     return !m.cover && m.index < s.overlap().size() && s.overlap()[m.index];
   };
   ParticleFrame frame;
-  frame.attributes = attributes_of(s);
+  frame.attributes = attributes_of(s, {{"Points", "m"},
+                                       {"velocity", "m/s"},
+                                       {"density", "kg/m^3"},
+                                       {"pressure", "Pa"},
+                                       {"mass", Dim == 2 ? "kg/m" : "kg"},
+                                       {"entrained_at", "s"}});
   frame.positions =
       vectors_of(s, members, "Points", [](const Member& m, const auto& p) { return p.position[m.index]; });
   frame.arrays.push_back(
@@ -132,7 +142,7 @@ SmokeFrame smoke_frame(const Simulation<Dim>& s) {
   frame.arrays.push_back({"density", 1, std::move(density)});
   frame.arrays.push_back({"velocity", Dim, std::move(velocity)});
   frame.arrays.push_back({"solid", 1, std::move(solid)});
-  frame.attributes = attributes_of(s);
+  frame.attributes = attributes_of(s, {{"density", "kg/m^3"}, {"velocity", "m/s"}});
   return frame;
 }
 

@@ -25,7 +25,8 @@ struct SmokeFrame {
 };
 
 /// Dense flow and cover by id: Points, velocity [m/s], density [kg/m^3] (mass over volume), pressure [Pa], mass [kg],
-/// layer (0 dense flow, 1 cover), overlap (0, 1), entrained_at [s] (-1: released), id.
+/// layer (0 dense flow, 1 cover), overlap (0, 1), entrained_at [s] (-1: released), id. The attributes "unit.NAME" tell
+/// the units; in 2D a mass is per metre of width [kg/m].
 template <int Dim>
 ParticleFrame particle_frame(const Simulation<Dim>& simulation);
 

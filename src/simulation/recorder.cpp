@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "io/commit.hpp"
+#include "io/film.hpp"
 #include "io/system.hpp"
 #include "simulation/diagnostics.hpp"
 #include "simulation/frame.hpp"
@@ -110,6 +111,7 @@ void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
         commit(path, frame.png());
       });
   }
+  writer_.submit([this] { ++n_committed_; });
   diagnostics_->flush();
   write_summary(simulation, "running", {});
 }
@@ -119,6 +121,31 @@ void Recorder<Dim>::finish(const Simulation<Dim>& simulation, const std::string&
   writer_.finish();
   if (diagnostics_) diagnostics_->close();
   write_summary(simulation, status, message);
+  write_film();
+}
+
+template <int Dim>
+void Recorder<Dim>::give_up(const Simulation<Dim>& simulation, const std::string& message) noexcept {
+  const auto tried = [](auto&& f) {
+    try {
+      f();
+    } catch (const std::exception&) {
+      // The first failure is the one that is told.
+    }
+  };
+  tried([&] { writer_.finish(); });
+  tried([&] { write_summary(simulation, "failed", message); });
+}
+
+/// Last of all, so that whoever is ended meanwhile has everything else.
+template <int Dim>
+void Recorder<Dim>::write_film() {
+  if (Dim != 2 || !output_.preview || n_frames_ == 0) return;
+  Film film;
+  film.folder = options_.folder;
+  film.frames_per_second = output_.frames_per_second;
+  film.threads = options_.threads;
+  if (const auto why_not = make_film(film); why_not && options_.on_note) options_.on_note(*why_not);
 }
 
 template <int Dim>
@@ -177,7 +204,7 @@ void Recorder<Dim>::write_summary(const Simulation<Dim>& s, const std::string& s
   run["memory"] = memory;
   run["threads"] = n_threads();
   run["peak_memory_bytes"] = peak_memory_bytes();
-  run["frames"] = n_frames_;
+  run["frames"] = n_committed_.load();
   if (status != "running") run["digest"] = state_digest(s);
   commit(options_.folder / "run.json", run.dump(2) + "\n");
 }

@@ -2,6 +2,7 @@
 /// The run folder: what a simulation leaves on disk (DESIGN.md sec. 4). Writing goes on beside the simulation; a frame
 /// stands on disk whole or not at all.
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -27,9 +28,13 @@ class Recorder {
   /// step at or after each frame time. Steps are never cut to hit a frame time.
   void follow(const Simulation<Dim>& simulation);
 
-  /// Writes the last frame where it is due, and run.json.
+  /// Waits for the frames, writes run.json and makes a film of the pictures.
   /// status   "done" | "stopped" | "unstable"
   void finish(const Simulation<Dim>& simulation, const std::string& status, const std::string& message = {});
+
+  /// After a failed write: waits for what is still being written, then leaves run.json with the status "failed" and the
+  /// message where that can still be written. Throws nothing.
+  void give_up(const Simulation<Dim>& simulation, const std::string& message) noexcept;
 
   const Instruments<Dim>& instruments() const { return instruments_; }
   double wall_seconds() const;
@@ -38,12 +43,14 @@ class Recorder {
   void write_frame(const Simulation<Dim>& simulation);
   void write_diagnostics(const Simulation<Dim>& simulation);
   void write_summary(const Simulation<Dim>& simulation, const std::string& status, const std::string& message);
+  void write_film();
 
   RunOptions options_;
   OutputSection output_;
   std::chrono::steady_clock::time_point start_;
   Instruments<Dim> instruments_;
   std::uint64_t next_frame_ = 0, n_frames_ = 0;
+  std::atomic<std::uint64_t> n_committed_ = 0;  ///< frames that stand on disk
   std::vector<SeriesEntry> particle_series_, smoke_series_;
   std::map<std::string, std::uint64_t> limiters_;
   double dt_min_ = 0;

@@ -22,33 +22,18 @@ Progress progress_of(const Simulation<Dim>& s, double wall_seconds) {
   return progress;
 }
 
-/// The passes of a run, for a Chrome trace.
-template <int Dim>
-class Profile {
- public:
-  Profile(Simulation<Dim>& simulation, const std::filesystem::path& path) : stages_(simulation.stages()), path_(path) {
-    constexpr std::size_t most = 4'000'000;  // about 400 MB of text
-    if (!path_.empty()) stages_.keep_passes(most);
-  }
-  void write() const {
-    if (path_.empty()) return;
-    std::vector<TraceSpan> spans;
-    for (const Stages::Pass& pass : stages_.kept())
-      spans.push_back({stages_.all()[pass.stage].name, pass.start, pass.duration});
-    write_chrome_trace(path_, spans);
-  }
+constexpr std::size_t most_passes = 4'000'000;  // about 400 MB of text
 
- private:
-  Stages& stages_;
-  const std::filesystem::path& path_;
-};
+void write_profile(const std::filesystem::path& path, const Stages& stages) {
+  std::vector<TraceSpan> spans;
+  for (const Stages::Pass& pass : stages.kept())
+    spans.push_back({stages.all()[pass.stage].name, pass.start, pass.duration});
+  write_chrome_trace(path, spans);
+}
 
+/// Steps until the end, or until asked to stop.
 template <int Dim>
-ExitCode run_in(const Scene& scene, const RunOptions& options) {
-  const ThreadLimit threads(options.threads);
-  Simulation<Dim> simulation(scene);
-  Recorder<Dim> recorder(scene, options);
-  const Profile<Dim> profile(simulation, options.profile);
+ExitCode step_to_end(Simulation<Dim>& simulation, Recorder<Dim>& recorder, const RunOptions& options) {
   const auto record = [&] {
     const auto timed = simulation.stages().time("output");
     recorder.follow(simulation);
@@ -57,7 +42,6 @@ ExitCode run_in(const Scene& scene, const RunOptions& options) {
   while (!simulation.done()) {
     if (options.stop && options.stop->load()) {
       recorder.finish(simulation, "stopped");
-      profile.write();
       return ExitCode::resumable;
     }
     try {
@@ -65,15 +49,29 @@ ExitCode run_in(const Scene& scene, const RunOptions& options) {
     } catch (const Error& failure) {
       if (failure.code() != ExitCode::unstable) throw;
       recorder.finish(simulation, "unstable", failure.what());
-      profile.write();
       throw;
     }
     record();
     if (options.on_progress) options.on_progress(progress_of(simulation, recorder.wall_seconds()));
   }
   recorder.finish(simulation, "done");
-  profile.write();
   return ExitCode::done;
+}
+
+template <int Dim>
+ExitCode run_in(const Scene& scene, const RunOptions& options) {
+  const ThreadLimit threads(options.threads);
+  Simulation<Dim> simulation(scene);
+  Recorder<Dim> recorder(scene, options);
+  if (!options.profile.empty()) simulation.stages().keep_passes(most_passes);
+  try {
+    const ExitCode code = step_to_end(simulation, recorder, options);
+    if (!options.profile.empty()) write_profile(options.profile, simulation.stages());
+    return code;
+  } catch (const Error& failure) {
+    if (failure.code() == ExitCode::io_failed) recorder.give_up(simulation, failure.what());
+    throw;
+  }
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ struct RunOptions {
   int threads = 0;                                   ///< 0: all of the machine's
   std::string scene_file;                            ///< as the user named it, for run.json
   std::function<void(const Progress&)> on_progress;  ///< after every step; may be empty
+  std::function<void(const std::string&)> on_note;   ///< a line worth telling, as why there is no film; may be empty
   std::filesystem::path profile;            ///< where the time of every pass goes, as a Chrome trace; may be empty
   const std::atomic<bool>* stop = nullptr;  ///< once true, the run ends after its step, status "stopped"
 };

@@ -1,92 +1,25 @@
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <string>
+
+#include "small_scenes.hpp"
+#include "workplace.hpp"
+
+using namespace spindrift::testing;
 
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// An empty folder in which the program runs, gone at the end.
-class Workplace {
- public:
-  Workplace() {
-    std::string pattern = (fs::temp_directory_path() / "spindrift_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~Workplace() { fs::remove_all(folder_); }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-
-  /// Runs the program with words for a shell, in the folder.
-  Outcome run(const std::string& words, const std::string& environment = "") const {
-    return shell(environment + " '" SPINDRIFT_BINARY_DIR "/spindrift' " + words);
-  }
-
-  /// Runs a command line in the folder.
-  Outcome shell(const std::string& command) const {
-    const fs::path out = folder_ / "stdout", err = folder_ / "stderr";
-    const std::string line =
-        "cd '" + folder_.string() + "' && " + command + " >'" + out.string() + "' 2>'" + err.string() + "'";
-    const int status = std::system(line.c_str());
-    const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return outcome;
-  }
-
-  std::size_t n_entries() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {})); }
-  const fs::path& folder() const { return folder_; }
-
- private:
-  fs::path folder_;
-};
-
-const std::string scene = R"(schema_version = 1
-[scene]
-end_time = "20 ms"
-[domain]
-lower = [0, 0]
-upper = [8, 4]
-left = "closed"
-right = "closed"
-[release]
-shape = "box"
-lower = [0, 0]
-upper = [1, 2]
-[dense_flow]
-support_radius = 0.4
-[output]
-preview = false
-)";
+const std::string& scene = box_scene;
 
 }  // namespace
 
 TEST_CASE("help and version go to stdout", "[commands]") {
   const Workplace place;
   CHECK(place.run("--version").out == "spindrift " SPINDRIFT_VERSION "\n");
-  const auto words = GENERATE(as<std::string>{}, "--help", "run --help", "check --help", "info --help", "-h");
+  const auto words =
+      GENERATE(as<std::string>{}, "--help", "run --help", "check --help", "info --help", "export --help", "-h");
   const Outcome help = place.run(words);
   CHECK(help.code == 0);
   CHECK(help.err.empty());
@@ -109,7 +42,9 @@ TEST_CASE("a bad command line ends with code 2, says what was meant and touches 
       Row{"run a.toml --sett a=1", "there is no option --sett; did you mean --set?\nSee spindrift run --help.\n"},
       Row{"run a.toml --frames_per_second=3",
           "there is no option --frames_per_second; did you mean --frames-per-second?\nSee spindrift run --help.\n"},
-      Row{"info", "DIR is required\nSee spindrift info --help.\n"});
+      Row{"info", "DIR is required\nSee spindrift info --help.\n"},
+      Row{"export a", "--to is required\nSee spindrift export --help.\n"},
+      Row{"export a --ot csv", "there is no option --ot; did you mean --to?\nSee spindrift export --help.\n"});
   const Outcome outcome = place.run(row.words);
   CHECK(outcome.code == 2);
   CHECK(outcome.err == row.message);

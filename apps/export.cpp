@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.hpp"
+#include "export_frame.hpp"
+#include "io/commit.hpp"
+#include "io/frame_files.hpp"
+#include "io/vtk_xml.hpp"
+#include "plain_text.hpp"
+#include "run_folder.hpp"
+#include "simulation/spelling.hpp"
+
+namespace spindrift {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportArguments {
+  std::string folder, format, output, only;
+  std::uint64_t every = 1;
+  std::optional<std::uint64_t> frame;
+  double smoke_above = 1e-4;
+};
+
+const std::vector<std::string_view> layers{"particles", "smoke"};
+
+void require_known(const std::string& what, const std::string& word, const std::vector<std::string_view>& known) {
+  if (std::ranges::find(known, word) != known.end()) return;
+  throw Error(ExitCode::bad_input, fmt::format("{} \"{}\" is not known, expected one of: {}{}", what, word,
+                                               fmt::join(known, ", "), did_you_mean(word, known)));
+}
+
+/// The wanted frames of a layer.
+std::vector<FrameFile> chosen_frames(const ExportArguments& arguments, const std::string& layer) {
+  std::vector<FrameFile> files;
+  if (!arguments.only.empty() && arguments.only != layer) return files;
+  files = frame_files(arguments.folder, layer);
+  std::erase_if(files, [&](const FrameFile& file) {
+    return arguments.frame ? file.number != *arguments.frame : file.number % arguments.every != 0;
+  });
+  return files;
+}
+
+/// Why there is nothing to export.
+Error nothing_chosen(const ExportArguments& arguments) {
+  std::uint64_t first = std::numeric_limits<std::uint64_t>::max(), last = 0;
+  for (const std::string_view layer : layers) {
+    if (!arguments.only.empty() && arguments.only != layer) continue;
+    for (const FrameFile& file : frame_files(arguments.folder, std::string(layer))) {
+      first = std::min(first, file.number);
+      last = std::max(last, file.number);
+    }
+  }
+  const std::string kind = arguments.only.empty() ? "" : " of " + arguments.only;
+  if (first > last)
+    return {ExitCode::bad_input,
+            fmt::format(
+                "{}: has no frames{}, expected {}; the run may have no such layer, or its [output] switches frames off",
+                arguments.folder, kind, frame_path(arguments.only.empty() ? "particles" : arguments.only, 0).string())};
+  return {ExitCode::bad_input, fmt::format("{}: there is no frame {}{}, expected one of {} to {}", arguments.folder,
+                                           arguments.frame.value_or(0), kind, first, last)};
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
+    throw Error(ExitCode::io_failed, fmt::format("cannot make the folder {}: {}", folder.string(),
+                                                 error ? error.message() : "there is a file of this name"));
+}
+
+/// Tells on a terminal how far it is; elsewhere nothing.
+class Counter {
+ public:
+  explicit Counter(std::size_t n) : n_(n), on_terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~Counter() {
+    if (on_terminal_) fmt::print(stderr, "\r\x1b[K");
+  }
+  Counter(const Counter&) = delete;
+  Counter& operator=(const Counter&) = delete;
+  void count() {
+    if (on_terminal_) fmt::print(stderr, "\r{} of {} files\x1b[K", ++done_, n_);
+  }
+
+ private:
+  std::size_t n_, done_ = 0;
+  bool on_terminal_;
+};
+
+ExitCode export_run(const ExportArguments& arguments) {
+  require_known("--to", arguments.format, {export_formats.begin(), export_formats.end()});
+  if (!arguments.only.empty()) require_known("--only", arguments.only, layers);
+  const auto run = read_run_json(arguments.folder);
+  const auto dim = run.find("dim");
+  if (dim == run.end() || (*dim != 2 && *dim != 3))
+    throw Error(ExitCode::incompatible_file, arguments.folder + "/run.json: expected \"dim\": 2 or 3");
+  const ExportOptions options{arguments.format, dim->get<int>(), arguments.smoke_above};
+
+  std::array<std::vector<FrameFile>, 2> chosen;
+  std::size_t n_files = 0;
+  for (std::size_t k = 0; k < layers.size(); ++k)
+    n_files += (chosen[k] = chosen_frames(arguments, std::string(layers[k]))).size();
+  if (n_files == 0) throw nothing_chosen(arguments);
+
+  const fs::path out = arguments.output.empty() ? fs::path(arguments.folder) / "export" : fs::path(arguments.output);
+  make_folder(out);
+  double bytes_written = 0;
+  {
+    Counter counter(n_files);
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      const std::string layer(layers[k]);
+      std::vector<SeriesEntry> series;
+      for (const FrameFile& file : chosen[k]) {
+        const StoredFrame frame = read_frame_file(file.path);
+        if (frame.lattice.has_value() != (layer == "smoke"))
+          throw Error(ExitCode::incompatible_file, fmt::format("{}: expected {}", file.path.string(), layer));
+        const std::string name = fmt::format("{}_{:06}.{}", layer, file.number, exported_ending(options.format, layer));
+        const std::vector<std::byte> bytes = exported(frame, options, file.path);
+        commit(out / name, bytes);
+        series.push_back({name, frame_number(frame, "time", file.path)});
+        bytes_written += static_cast<double>(bytes.size());
+        counter.count();
+      }
+      if (options.format == "vtk" && !series.empty()) commit(out / (layer + ".pvd"), pvd_text(series));
+    }
+  }
+  fmt::print(stderr, "{} frame{} of particles and {} of smoke as {}: {}\n", chosen[0].size(),
+             chosen[0].size() == 1 ? "" : "s", chosen[1].size(), options.format, bytes_text(bytes_written));
+  fmt::print("{}\n", out.string());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "export", "Write the frames of a run in formats that other programs open; prints the folder's name");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("DIR", arguments->folder, "run folder")->required()->type_name("");
+  command
+      ->add_option("--to", arguments->format,
+                   "csv: tables of numbers, a row a particle or cell\n"
+                   "vtk: .vtp, .vti and .pvd, for ParaView before 5.10, VisIt, PyVista, meshio\n"
+                   "ply: point clouds, for Blender, Houdini, MeshLab, CloudCompare")
+      ->required()
+      ->type_name("FORMAT");
+  command->add_option("-o,--output", arguments->output, "where to (default: export/ in the run folder)")
+      ->type_name("DIR");
+  CLI::Option* every = command->add_option("--every", arguments->every, "every Nth frame")
+                           ->check(CLI::Range(1, 1000000))
+                           ->type_name("N");
+  command->add_option("--frame", arguments->frame, "frame N alone; the first is 0")
+      ->check(CLI::Range(0, 1000000000))
+      ->type_name("N")
+      ->excludes(every);
+  command->add_option("--only", arguments->only, "particles or smoke alone")->type_name("LAYER");
+  command
+      ->add_option("--smoke-above", arguments->smoke_above,
+                   "csv, ply: leave out cells with no more smoke than this [kg/m^3]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->type_name("DENSITY");
+  command->footer(
+      "Example:  spindrift export runs/quickstart --to csv --every 10\n"
+      "The frames themselves are VTKHDF: ParaView from 5.10 on opens particles.hdf.series and smoke.hdf.series as "
+      "they\n"
+      "are. docs/results.md tells more.");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return export_run(*arguments); }; });
+}
+
+}  // namespace spindrift

@@ -1,0 +1,31 @@
+#pragma once
+/// The frames of a run folder: frames/particles_000012.hdf, frames/smoke_000012.hdf.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/vtkhdf.hpp"
+
+namespace spindrift {
+
+struct FrameFile {
+  std::uint64_t number = 0;
+  std::filesystem::path path;
+};
+
+/// The path of a frame within its run folder.   layer: "particles" or "smoke"
+std::filesystem::path frame_path(const std::string& layer, std::uint64_t number);
+
+/// All frames of a layer that stand in the run folder `run`, by number; none where it has no folder of frames.
+/// Throws    Error(io_failed): the folder cannot be listed.
+std::vector<FrameFile> frame_files(const std::filesystem::path& run, const std::string& layer);
+
+/// Throws    Error(io_failed): the file cannot be read;  Error(incompatible_file): it is no frame.
+StoredFrame read_frame_file(const std::filesystem::path& path);
+
+/// A number that describes a whole frame, as "time" [s].   Throws Error(incompatible_file): `file` has none.
+double frame_number(const StoredFrame& frame, const std::string& name, const std::filesystem::path& file);
+
+}  // namespace spindrift

@@ -1,0 +1,20 @@
+#pragma once
+/// Chosen points of a lattice as a cloud of points, for formats that know no grids.
+
+#include <span>
+#include <vector>
+
+#include "io/vtkhdf.hpp"
+
+namespace spindrift {
+
+/// A cloud that owns its values.
+struct StoredCloud {
+  StoredArray positions;  ///< [m], three components
+  std::vector<StoredArray> arrays;
+};
+
+/// points: numbers of points of the lattice, x fastest.   Pre: image.lattice; each number is one of its points.
+StoredCloud lattice_points(const StoredFrame& image, std::span<const std::size_t> points);
+
+}  // namespace spindrift
