@@ -115,23 +115,26 @@ def main():
     dim = json.loads((options.run / "run.json").read_text())["dim"]
     show = {"smoke": show_smoke, "particles": show_particles}
     series = {layer: options.run / f"{layer}.hdf.series" for layer in show}
-    sources = {layer: pv.OpenDataFile(str(path)) for layer, path in series.items() if path.is_file()}
+    sources = {layer: pv.OpenDataFile(str(path.resolve())) for layer, path in series.items() if path.is_file()}
     if not sources:
         sys.exit(f"{options.run}: has no frames, expected particles.hdf.series or smoke.hdf.series")
 
     view = pv.CreateView("RenderView")
+    pv.AssignViewToLayout(view, pv.CreateLayout(options.run.resolve().name))
     view.UseColorPaletteForBackground = 0
     view.Background = [0.32, 0.45, 0.62]
     view.OrientationAxesVisibility = 0
+    scene = pv.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
     times = sorted({time for source in sources.values() for time in source.TimestepValues})
-    view.ViewTime = times[options.frame]
+    scene.AnimationTime = view.ViewTime = times[options.frame]
     for layer, source in sources.items():
         source.UpdatePipeline(times[options.frame])
         show[layer](view, source, dim)
     resolution = look_from_the_side(view, sources.values(), dim, options.width)
 
     for number in range(len(times)) if options.all else [options.frame]:
-        view.ViewTime = times[number]
+        scene.AnimationTime = view.ViewTime = times[number]
         output = options.output or options.run / "paraview.png"
         if options.all:
             output = pathlib.Path(str(output).replace("%", f"{number:06}"))
