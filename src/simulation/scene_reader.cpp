@@ -177,6 +177,7 @@ class Reader {
         contradict(path, thickness);
       } else {
         scene_.release[i].thickness = layers * scene_.dense_flow->support_radius / 2;
+        places_[thickness] = place_of(places_, path);
       }
     }
   }
@@ -195,6 +196,7 @@ class Reader {
     const std::filesystem::path file = folder / std::exchange(scene_.terrain->file, {});
     try {
       scene_.terrain->points = read_points(file);
+      places_["terrain.points"] = place_of(places_, path);
     } catch (const PointFileError& error) {
       report_.add(place_of(places_, path), path, error.what());
       report_.suspect("terrain.points");
