@@ -29,12 +29,12 @@ FRAMES_PER_SECOND = 2                              # for the measure of the head
 # factor: (key of the scene, unit, values beside the chosen one, the chosen one)
 FACTORS = {
     "friction_mu": ("dense_flow.friction_mu", "", [0.155, 0.35], 0.25),
-    "friction_xi": ("dense_flow.friction_xi", "m/s^2", [500, 2000, 4000], 1000),
+    "friction_xi": ("dense_flow.friction_xi", "m/s^2", [500, 4000], 1000),
     "friction_acts_on": ("dense_flow.friction_acts_on", "", ["base", "none"], "column"),
     "cover_depth": ("cover.depth", "m", [0.315, 0.945], 0.525),
     "entrainment_rate": ("entrainment.rate", "", [5, 20], 10),
     "friction_strain": ("entrainment.friction_strain", "", [0, 10], 1),
-    "compaction_time": ("dense_flow.compaction_time", "s", [0, 1], 0.1),
+    "compaction_time": ("dense_flow.compaction_time", "s", [0], 0.1),
     "generation": ("coupling.generation.constant", "", [0.02], 0.2),
 }
 COLUMNS = ["slope", "factor", "value", "seed", "stop_time_s", "n_dense", "n_entrained", "front_speed_max_m_s",
@@ -50,7 +50,8 @@ class Case:
 
     @property
     def name(self):
-        return f"{self.slope}_{self.factor}_{self.value}_seed{self.seed}"
+        value = f"_{self.value}" if self.value != "" else ""
+        return f"{self.slope}_{self.factor}{value}_seed{self.seed}"
 
 
 def cases(seeds):
@@ -115,6 +116,8 @@ def can_measure():
 
 def head_until(folder, stop):
     """Median head ratio and share of frames with a smoking head up to a time [s], or empty strings."""
+    if not can_measure():
+        return "", ""
     try:
         with open(os.path.join(folder, "head.json")) as file:
             rows = json.load(file)
@@ -150,13 +153,12 @@ def rows_of(case, folder):
     return rows
 
 
-def write_results(done):
-    """Writes results.csv from the runs that are done, in the order of the study."""
+def write_results(rows):
+    """Writes results.csv: the rows of the runs that are done so far, in the order of the study."""
     with open(os.path.join(HERE, "results.csv"), "w", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         writer.writeheader()
-        for case, folder in done:
-            writer.writerows(rows_of(case, folder))
+        writer.writerows(rows)
 
 
 def main():
@@ -171,7 +173,7 @@ def main():
     parser.add_argument("--keep-frames", action="store_true", help="keep all frames (some 20 MB a run)")
     options = parser.parse_args()
 
-    study, done, failed = cases(options.seeds), [], 0
+    study, rows, failed = cases(options.seeds), [], 0
     os.makedirs(options.out, exist_ok=True)
     if not can_measure():
         print("numpy or h5py is missing: the smoking head is not measured", file=sys.stderr)
@@ -179,12 +181,12 @@ def main():
         waiting = [pool.submit(simulate, case, options.spindrift, options.out, options.keep_frames) for case in study]
         for number, (case, result) in enumerate(zip(study, waiting), 1):
             try:
-                done.append((case, result.result()))
+                rows += rows_of(case, result.result())
                 print(f"[{number}/{len(study)}] {case.name}", file=sys.stderr)
             except subprocess.CalledProcessError as error:
                 failed += 1
                 print(f"[{number}/{len(study)}] {case.name} failed: exit code {error.returncode}", file=sys.stderr)
-            write_results(done)
+            write_results(rows)
     return 1 if failed else 0
 
 
