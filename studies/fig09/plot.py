@@ -25,6 +25,7 @@ TITLES = {
     "compaction_time": "compaction time [s]", "generation": "generation constant C_g",
 }
 LOGARITHMIC = {"friction_xi", "entrainment_rate", "generation"}
+EVENLY = {"friction_strain", "compaction_time"}  # spaced evenly: 0 is among the values
 TIMES = [3.0, 6.0, 9.0]      # of the contact sheet [s]
 PIXELS_PER_METRE = 1380 / 227.7
 CROP = (0, 0, 720, 480)      # of a preview [pixels]: the left 119 m
@@ -67,9 +68,9 @@ def draw_panel(axes, rows, factor, quantity):
     """One factor: three curves, the paper's counts dashed, the seeds' range as a band."""
     for slope in study.SLOPES:
         values, counts = curve(rows, factor, slope, quantity)
-        axes.plot(range(len(values)) if factor == "friction_strain" else values, counts, "o-", ms=4,
+        axes.plot(range(len(values)) if factor in EVENLY else values, counts, "o-", ms=4,
                   color=COLOURS[slope], label=slope)
-        if factor == "friction_strain":
+        if factor in EVENLY:
             axes.set_xticks(range(len(values)), [f"{value:g}" for value in values])
         seeds = chosen(rows, slope, quantity)
         axes.axhspan(min(seeds), max(seeds), color=COLOURS[slope], alpha=0.15, lw=0)
@@ -79,7 +80,7 @@ def draw_panel(axes, rows, factor, quantity):
         axes.set_xscale("log")
         axes.set_xticks(values, [f"{value:g}" for value in values], minor=False)
         axes.minorticks_off()
-    elif factor not in ("friction_acts_on", "friction_strain"):
+    elif factor != "friction_acts_on" and factor not in EVENLY:
         axes.set_xticks(values, [f"{value:g}" for value in values])
     axes.set_title(TITLES[factor], fontsize=9)
     axes.tick_params(labelsize=8)

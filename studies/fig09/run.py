@@ -34,7 +34,7 @@ FACTORS = {
     "cover_depth": ("cover.depth", "m", [0.315, 0.945], 0.525),
     "entrainment_rate": ("entrainment.rate", "", [5, 20], 10),
     "friction_strain": ("entrainment.friction_strain", "", [0, 10], 1),
-    "compaction_time": ("dense_flow.compaction_time", "s", [0], 0.1),
+    "compaction_time": ("dense_flow.compaction_time", "s", [0, 1], 0.1),
     "generation": ("coupling.generation.constant", "", [0.02], 0.2),
 }
 COLUMNS = ["slope", "factor", "value", "seed", "stop_time_s", "n_dense", "n_entrained", "front_speed_max_m_s",
