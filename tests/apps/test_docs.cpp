@@ -68,7 +68,7 @@ std::string runnable(std::string line, const std::string& python) {
   const auto replace = [&line](const std::string& from, const std::string& to) {
     if (line.starts_with(from)) line.replace(0, from.size(), to);
   };
-  const bool study = line.find("python3 studies/") == 0;
+  const bool study = line.find("studies/") != std::string::npos;
   replace("./dev run ", "build/release/spindrift run ");
   replace("python3 ", "'" + python + "' ");
   return study ? line.substr(0, line.find('#')) + " --help" : line;
