@@ -1,6 +1,6 @@
 #pragma once
 /// Drag and lift between the overlap particles and the air (paper Sec. 4.4.1), two-way, stable at any time step and
-/// mass ratio, momentum-exact (PHYSICS.md sec. 3; departures R2, R3, R4).
+/// mass ratio, momentum-exact: docs/physics.md, departures R2, R3, R4.
 
 #include "coupling/exchange.hpp"
 #include "coupling/overlap_region.hpp"
@@ -21,7 +21,7 @@ double drag_stiffness(const ForceOptions& drag, double dt, double radius, double
                       double mass);
 
 /// The implicit rate beta of the drag exchange for slip speed w.
-///   without gravity   beta = a w, exact for one pair at any dt and mass ratio (VALIDATION C1, C2)
+///   without gravity   beta = a w, exact for one pair at any dt and mass ratio (test cases C1, C2)
 ///   on velocities that hold g dt already   beta = (sqrt(1 + 4 a (1 + phi) w) - 1) / (2 (1 + phi)), which settles at
 ///   the right terminal speed at any dt (C3)
 double drag_rate(double stiffness, double loading, double slip, bool gravity_predicted);
@@ -32,8 +32,9 @@ template <int Dim>
 Vec<Dim> damped_rotation(const Vec<Dim>& w, const Curl<Dim>& theta);
 
 /// Drag, Eq. (10):  f_i = -k_drag (m_i / r_i) |v_i - u_i| (v_i - u_i), by the two-way implicit exchange
-///   u_f' = (m_f u_f + sum_p c_pf gamma_p v_p) / (m_f + sum_p c_pf gamma_p),  c_pf = w_pf m_p,  gamma = beta / (1 +
-///   beta) v_p' = v_p - gamma_p sum_f w_pf (v_p - u_f')
+///   u_f' = (m_f u_f + sum_p c_pf gamma_p v_p) / (m_f + sum_p c_pf gamma_p)
+///   v_p' = v_p - gamma_p sum_f w_pf (v_p - u_f')
+/// c_pf = w_pf m_p, w_pf the weights of region.on_faces, gamma = beta / (1 + beta).
 /// Changes the velocities in `region`, fills its stiffness and loading, and books both sides in `exchange`.
 template <int Dim>
 void exchange_drag(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Particles<Dim>& particles,

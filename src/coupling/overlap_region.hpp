@@ -94,7 +94,7 @@ struct OverlapRegion {
 
   std::vector<Vec<Dim>> velocity;   ///< v of the particle, changed by drag and lift [m s^-1]
   std::vector<double> slip;         ///< |w| before drag [m s^-1]
-  std::vector<double> stiffness;    ///< a of the drag law, PHYSICS 3; 0 without drag [s m^-1]
+  std::vector<double> stiffness;    ///< a of drag_stiffness(); 0 without drag [s m^-1]
   std::vector<double> loading;      ///< phi, particle over air mass around the particle
   std::vector<double> response;     ///< gamma of drag, scratch
   std::vector<double> swept;        ///< S_sec |w| where smoke sticks [m^Dim s^-1], scratch

@@ -1,6 +1,7 @@
 #pragma once
 /// Generation and adhesion of snow smoke (paper Sec. 4.4.1, Eqs. 12 and 13), exact over the step for the speed that
-/// drag leaves, and together: they relax to their common equilibrium at any time step (PHYSICS.md sec. 3, R5, R6, R17).
+/// drag leaves, and together: they relax to their common equilibrium at any time step (R5, R6, R17)
+/// as docs/physics.md says.
 
 #include <optional>
 
@@ -22,19 +23,19 @@ struct SmokeOptions {
   std::optional<GenerationOptions> generation;
   std::optional<AdhesionOptions> adhesion;
   double radius = 0;                  ///< of a particle [m]
-  double min_mass = 0, max_mass = 0;  ///< of a particle [kg]: it gives no more below, takes no more above (R17)
+  double min_mass = 0, max_mass = 0;  ///< of a particle [kg]: it gives no more below, sweeps up no more above (R17);
+                                      ///< smoke that the core shuts in sticks above it too, see CoreBoundary
 };
 
-/// Surface and section of a particle of radius r, in 2D per metre of width (R6): 2 pi r and 2 r; in 3D 4 pi r^2 and pi
-/// r^2.
+/// Surface and section of a particle of radius r (R6):
+///   2D, per metre of width: 2 pi r and 2 r          3D: 4 pi r^2 and pi r^2
 template <int Dim>
 double surface(double radius);
 template <int Dim>
 double section(double radius);
 
 /// Smoke made by one particle in a step, Eq. (12), while drag slows it from w to w / (1 + b), b = (1 + phi) a w:
-///   dm = C_g S_sur w^1.7 dt * mean of (1 + b s)^-1.7 over the part s of the step that is faster than the threshold
-///   [kg]
+///   dm = C_g S_sur w^1.7 dt * integral of (1 + b s)^-1.7 over the part s of the step above the threshold [kg]
 double generated_smoke(const GenerationOptions& generation, double slip, double b, double surface, double dt);
 
 /// Mean over the step of the slip speed that drag slows from w to w / (1 + b):  w log(1 + b) / b  [m s^-1]

@@ -32,11 +32,14 @@ class VelocityAdvection {
 
   /// u(x) <- u(x - D(x)), the displacement D by the midpoint rule through the carrier:
   ///   D = dt c(x - dt/2 c(x))
-  /// MacCormack: u^ = u(x - D), back = u^(x + D'), D' the displacement forward; u <- u^ + (u - back) / 2, clamped to
-  /// the values that made u^ (those with a weight). Interpolation is (bi/tri)linear, constant beyond the domain; stable
-  /// for any dt. Rows where nothing moves more than a cell (|c| dt <= dx, also in the rows next to them) read their
-  /// neighbours in order, with weights instead of look-ups: the same interpolation, several times faster. u  in-out:
-  /// [m/s], on return in the rows of frame.ground.   dt  [s] Source: paper Sec. 4.2 (stable fluids).
+  /// MacCormack, D' being the displacement forward:
+  ///   u^ = u(x - D),   back = u^(x + D'),   u <- u^ + (u - back) / 2,
+  /// clamped to the values that made u^ (those with a weight). Interpolation is (bi/tri)linear, constant beyond the
+  /// domain; stable for any dt. Rows where nothing moves more than a cell (|c| dt <= dx, also in the rows next to them)
+  /// read their neighbours in order, with weights instead of look-ups: the same interpolation, several times faster.
+  /// u   in-out: [m/s], on return in the rows of frame.ground
+  /// dt  [s]
+  /// Source: paper Sec. 3.1 (stable fluids).
   void advect(FaceField<Dim>& u, const AdvectionFrame<Dim>& frame, double dt, AdvectionScheme scheme);
 
   /// Forgets what lies deep in the ground, see Ground::clear_deep.

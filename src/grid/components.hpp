@@ -65,7 +65,7 @@ class Components {
 /// component at all reaches an open side, the largest one (a closed domain is not a pocket; ties: the first).
 /// kind  in-out: pockets of an earlier call count as what they are here, so set them back to open before
 /// open  in: open area fraction of each face, 0..1
-/// Returns the number of cells marked.   Source: paper Sec. 4.3; departure: R10.
+/// Returns the number of cells marked.   Source: paper Sec. 4.2; departure: R10.
 template <int Dim>
 std::size_t mark_pockets(Field<Dim, CellKind>& kind, const FaceField<Dim>& open,
                          const std::array<std::array<Side, 2>, Dim>& sides, Components<Dim>& scratch);

@@ -43,13 +43,12 @@ class PressureProjection {
   /// open     in: open area fraction of each face, 0..1
   /// kind     in: of each cell; cells other than open get p = 0
   /// dt       in: [s], > 0
-  /// A component of open cells that reaches no open side gets its right-hand side's mean subtracted (RELIABILITY F8)
-  /// and a pressure of mean zero. No flux to remove: no iteration, u unchanged. Source: paper Eqs. (1), (2), Sec. 4.3.
-  /// Departures: R9, R10.
-  /// heavy    in: core cells, no cell twice. Their faces towards open cells yield to the pressure with the cell's mass
-  /// m,
+  /// heavy    in: core cells, no cell twice. Their faces towards open cells yield to the pressure with the cell's mass,
   ///              u_f += dt p open_f A / m away from the air, so that the impulse p open_f A dt that the core takes and
   ///              the air's motion belong together at any mass ratio (R10). Cores that are not listed do not yield
+  /// A component of open cells that reaches no open side gets its right-hand side's mean subtracted, since no velocity
+  /// could match a net inflow into it, and a pressure of mean zero. No flux to remove: no iteration, u unchanged.
+  /// Source: paper Eqs. (1), (2), boundary of Sec. 4.2.   Departures: R9, R10.
   ProjectionResult project(FaceField<Dim>& u, const Field<Dim>& density, const FaceField<Dim>& open,
                            const Field<Dim, CellKind>& kind, double dt, const ProjectionOptions& options = {},
                            std::span<const HeavyCell<Dim>> heavy = {});

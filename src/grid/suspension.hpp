@@ -1,5 +1,6 @@
 #pragma once
-/// The suspension layer: air and snow smoke on the MAC grid, paper Secs. 4.2 and 4.4.
+/// The suspension layer: air and snow smoke on the MAC grid, paper Secs. 3.1 and 4.2, with the sources of
+/// Sec. 4.4.1.
 ///
 /// One step is: add_gravity, apply (the exchange's sources), advance. Between steps the velocity is divergence-free.
 

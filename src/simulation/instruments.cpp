@@ -6,7 +6,7 @@
 namespace spindrift {
 namespace {
 
-constexpr double head_length = 20;  // [m], PHYSICS.md sec. 3
+constexpr double head_length = 20;  // [m]: the head is what lies within it of the front
 
 struct MassAt {
   double along, mass;

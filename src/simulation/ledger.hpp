@@ -1,5 +1,5 @@
 #pragma once
-/// What moved between the layers, and out of them: every kilogram and newton-second is an entry (DESIGN.md sec. 1.8).
+/// What moved between the layers, and out of them: every kilogram and newton-second is an entry (CONTRIBUTING.md).
 
 #include <string_view>
 

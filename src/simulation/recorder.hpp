@@ -1,6 +1,6 @@
 #pragma once
-/// The run folder: what a simulation leaves on disk (DESIGN.md sec. 4). Writing goes on beside the simulation; a frame
-/// stands on disk whole or not at all.
+/// The run folder: what a simulation leaves on disk (README.md, What a run writes). Writing goes on beside the
+/// simulation; a frame stands on disk whole or not at all.
 
 #include <atomic>
 #include <chrono>

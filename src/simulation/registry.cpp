@@ -114,7 +114,8 @@ void add_snow(Registry& r) {
       .number<&F::cfl>("cfl", "", above(0, 1), "largest way of a particle in a step, in spacings")
       .with("solver", {"dfsph"})
       .number<&F::density_tolerance>("density_tolerance", "", between(0, 1), "mean compression allowed")
-      .number<&F::divergence_tolerance>("divergence_tolerance", "", above(0, 1000), "mean rate of compression allowed")
+      .number<&F::divergence_tolerance>("divergence_tolerance", "", above(0, 1000),
+                                        "mean rate of compression allowed, in percent of the volume a step")
       .number<&F::max_iterations>("max_iterations", "", iterations, "of each pressure solve")
       .with("solver", {"wcsph"})
       .number<&F::sound_speed>("sound_speed", "m/s", from(0, 1e5),
@@ -172,8 +173,9 @@ void add_smoke(Registry& r) {
   Rows<&Scene::coupling>(r, "coupling", "what dense flow and smoke exchange where they overlap")
       .number<&X::overlap_fraction>("overlap_fraction", "", from(0, 10), "beta: overlap is where n < beta n_interior",
                                     "R1")
-      .number<&X::min_mass>("min_mass", "", below(0, 1), "of a particle, in initial masses", "R17")
-      .number<&X::max_mass>("max_mass", "", from(1, 1e6), "of a particle, in initial masses", "R17");
+      .number<&X::min_mass>("min_mass", "", below(0, 1), "of a particle, in masses of a released one", "R17")
+      .number<&X::max_mass>("max_mass", "", from(1, 1e6),
+                            "of a particle that sweeps up smoke, in masses of a released one", "R17");
   const std::vector<std::string_view> laws = {"air", "paper"};
   Rows<&Scene::coupling, &X::drag>(r, "coupling.drag", "air drag on particles, and back on the air")
       .number<&DragSection::constant>("constant", "", from(0, 1e6), "k_drag", "Eq. (10)")

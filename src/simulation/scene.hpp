@@ -135,7 +135,7 @@ struct AdhesionSection {
 };
 struct CouplingSection {
   double overlap_fraction = 0.8;         ///< beta: n_0 = beta n_interior (R1)
-  double min_mass = 0.05, max_mass = 2;  ///< of a particle, in initial masses (R17)
+  double min_mass = 0.05, max_mass = 2;  ///< of a particle, in masses of a released one (R17)
   std::optional<DragSection> drag;
   std::optional<LiftSection> lift;
   std::optional<GenerationSection> generation;

@@ -64,10 +64,10 @@ void Simulation<Dim>::step() {
   const auto timed = stages_.time("step");
   report_ = {};
   choose_time_step();
-  predict_velocities();
+  predict_velocities();  // gravity: the f of Eq. (2), of the smoke by Eqs. (7)-(9)
   exchange_layers();     // 1: Secs. 4.1, 4.4.1, Eqs. (5), (6), (10)-(13)
   advance_dense_flow();  // 2: Secs. 3.2, 4.3, Eq. (4)
-  advance_suspension();  // 3: Secs. 3.1, 4.2, Eqs. (1)-(3), (7)-(9)
+  advance_suspension();  // 3: Secs. 3.1, 4.2, Eqs. (1)-(3), the swirl of Eq. (8)
   entrain_cover();       // 4: Sec. 4.4.2, Eqs. (14)-(16)
   remove_what_left();
   time_ += dt_;

@@ -36,7 +36,8 @@ class Simulation {
   const std::optional<DenseFlow<Dim>>& dense() const { return dense_; }
   const std::optional<Cover<Dim>>& cover() const { return cover_; }
   const std::optional<Suspension<Dim>>& suspension() const { return suspension_; }
-  /// 1 for particles of the overlap region in the last step, one a particle; empty without coupling.
+  /// 1 for particles of the overlap region in the last step, one a particle; empty where the
+  /// scene lacks dense flow or suspension. It needs no coupling: the core of the air is the snow outside overlap.
   const std::vector<std::uint8_t>& overlap() const { return overlap_; }
   const Exchange<Dim>& exchange() const { return exchange_; }
 
@@ -50,7 +51,8 @@ class Simulation {
   double smoke_mass() const;  ///< [kg]
   /// (dense + cover + smoke + outflow + deposit) / initial - 1.
   double mass_error() const;
-  /// Bytes of state and scratch, by part: "dense_flow", "cover", "suspension", "coupling", "entrainment".
+  /// Bytes of state and scratch, by part, of the parts that the scene has: "terrain", "dense_flow", "cover",
+  /// "suspension", "core", "coupling", "entrainment".
   std::vector<std::pair<std::string, std::size_t>> memory() const;
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
-/// Coulomb and Voellmy friction of the dense flow on its bed, terrain or cover: the last update of the velocities.
+/// Coulomb and Voellmy friction of the dense flow on its bed, terrain or cover: after the pressure solve, before
+/// the particles move. Contact with walls, the core's share of the air's impulse and the shared traction come later.
 
 #include <span>
 

@@ -76,7 +76,8 @@ class DenseFlow {
   /// 1: sorts the particles and finds all neighbours. Throws Error(unstable): a position that is not finite.
   void sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages);
   /// 2: viscosity and pressure. Gravity is in the velocities already. dfsph is kept quiet by ArtificialViscosity with
-  /// the wave speed sqrt(p / rho) of the last step's pressure: none in free fall, and less the finer the particles.
+  /// the wave speed sqrt(p / rho) of the last step's pressure, rho the rest density of the options: none in free fall,
+  /// and less the finer the particles. wcsph with its sound speed.
   /// Throws Error(unstable): a velocity not finite.
   VelocitySolve<Dim> solve_velocity(double dt, Stages& stages);
   /// 3: x += dt v. What ended in a wall is put back on its surface, its velocity into the wall removed.
@@ -88,8 +89,11 @@ class DenseFlow {
   /// Volume relaxes to mass / density: V += (m / rho - V) (1 - exp(-dt / time)). time 0: off (R20).
   void compact(double dt, double time);
 
-  /// CFL limit [s]: cfl d / |v|max, for a start from rest cfl sqrt(d / |gravity|), for snow under pressure
-  /// 0.6 d / sqrt(p / rho) with the last pressure; wcsph instead 0.4 d / c.
+  /// The smallest of [s]
+  ///   cfl d / |v|max
+  ///   cfl sqrt(d / |gravity|), for a start from rest
+  ///   dfsph: 0.6 d / sqrt(p / rho) of the largest p / rho, with the last pressure and rho the particle's own m / V
+  ///   wcsph: 0.4 d / (c sqrt(rho_0 V / m)) of the lightest snow, at most 0.4 d / c; rho_0 the rest density
   /// Infinite without particles.
   double time_step_limit(double cfl, double gravity) const;
 
@@ -108,7 +112,7 @@ class DenseFlow {
   PressureSolver<Dim> pressure_solver_;
   ViscositySolver<Dim> viscosity_solver_;
   ArtificialViscosity<Dim> artificial_viscosity_;
-  std::vector<double> wave_speed_;  ///< sqrt(p / rho), or the sound speed of wcsph [m s^-1]
+  std::vector<double> wave_speed_;  ///< sqrt(p / rho_0), or the sound speed of wcsph [m s^-1]
 };
 
 }  // namespace spindrift

@@ -18,7 +18,7 @@ Vec<2> out_of_ground(double angle) {
   return {std::sin(angle), std::cos(angle)};
 }
 
-/// Bump height over the distance s along a slope of length l: a cosine that fades to zero at both ends.
+/// Bump height over the distance s along a slope of length l: a sine that fades to zero at both ends.
 double bump(const SlopeProfile& slope, double s, double l) {
   const double fade = std::min({1.0, 2 * s / slope.bump_length, 2 * (l - s) / slope.bump_length});
   const double smooth = fade * fade * (3 - 2 * fade);

@@ -125,3 +125,27 @@ TEMPLATE_TEST_CASE_SIG("Smoke made in air of the same velocity leaves the wind a
   CHECK(air.total_smoke() == Approx(1).epsilon(1e-14));
   for (const double value : air.velocity()[0].values()) CHECK(value == Approx(7).epsilon(1e-14));
 }
+
+TEMPLATE_TEST_CASE_SIG("A particle at max_mass sweeps up no smoke, one at min_mass gives none (R17)", "[coupling]",
+                       ((int Dim), Dim), 2, 3) {
+  // Two particles in the middle of one cell of 1 m^Dim with 0.1 kg of smoke; only the one between the bounds takes
+  // part.
+  const double r = 0.05, w = 10, c_a = 0.2, dt = 0.01, smoke = 0.1;
+  const bool lower = GENERATE(false, true);
+  Suspension<Dim> air = air_box<Dim>(3, 1, 1.2);
+  Field<Dim> held = air.smoke_mass();
+  for (double& m : held.values()) m = smoke;
+  air.set_smoke_mass(held);
+  Particles<Dim> particles;
+  add_particle<Dim>(particles, Vec<Dim>(Vec<Dim>::Constant(1.5)), w * Vec<Dim>::Unit(0), lower ? 0.1 : 2);
+  add_particle<Dim>(particles, Vec<Dim>(Vec<Dim>::Constant(1.5)), w * Vec<Dim>::Unit(0), 1.999);
+  SmokeOptions options{std::nullopt, AdhesionOptions{c_a}, r, 0.1, 2};
+  if (lower) options = {GenerationOptions{0.2, 0}, std::nullopt, r, 0.1, 2};
+  const Exchange<Dim> exchange = run_exchange<Dim>(
+      air, particles, [&](auto& region, auto& out) { exchange_smoke<Dim>(region, out, particles, air, options, dt); });
+  CHECK(exchange.on_particles.mass[0] == 0);
+  CHECK(exchange.on_particles.momentum[0].norm() == 0);
+  const double swept = smoke * -std::expm1(-c_a * section<Dim>(r) * w * dt);
+  const double made = 0.2 * surface<Dim>(r) * std::pow(w, 1.7) * dt;
+  CHECK(exchange.on_particles.mass[1] == Approx(lower ? -made : swept).epsilon(1e-12));
+}

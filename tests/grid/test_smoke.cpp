@@ -178,3 +178,27 @@ TEMPLATE_TEST_CASE_SIG("settling smoke falls through an open side or is deposite
   CHECK((bottom == Side::open ? deposited : outflow) == 0);
   CHECK(stages.passes("suspension.pressure") == 0);
 }
+
+TEMPLATE_TEST_CASE_SIG("a layer of smoke in still air sinks by its settling speed", "[smoke]", ((int Dim), Dim), 2, 3) {
+  const MacGrid<Dim> grid = box_grid<Dim>(20, 2);
+  SuspensionOptions<Dim> options;
+  options.settling_speed = 0.5;
+  Suspension<Dim> air(grid, all_sides<Dim>(Side::closed), options);
+  Field<Dim> smoke(grid.cells);
+  for_each_index<Dim>(grid.cells, [&](const Index<Dim>& i) { smoke[i] = i[Dim - 1] >= 13 && i[Dim - 1] < 17; });
+  air.set_smoke_mass(smoke);
+  const auto height = [&] {
+    double sum = 0;
+    for_each_index<Dim>(grid.cells,
+                        [&](const Index<Dim>& i) { sum += air.smoke_mass()[i] * grid.cell_centre(i)[Dim - 1]; });
+    return sum / air.total_smoke();
+  };
+  const double start = height(), dt = GENERATE(0.02, 0.1, 0.4);  // 0.1, 0.5 and 2 cells a step
+  CHECK(start == Approx(1.5));
+  Stages stages;
+  double time = 0;
+  for (; time < 1.6 - 1e-9; time += dt) air.advance(dt, {}, stages);
+  CHECK(start - height() == Approx(0.5 * time).margin(0.1 * grid.dx));  // 8 cells
+  CHECK(air.budget().deposited == 0);
+  CHECK(air.max_speed() == 0);
+}

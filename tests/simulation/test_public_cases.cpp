@@ -92,8 +92,8 @@ double lid_driven_minimum(int n_cells) {
 
 }  // namespace
 
-// VALIDATION A4. Martin and Moyce 1952, n^2 = 2: Z = x / a over T = t sqrt(2 g / a); height at the wall over t
-// sqrt(g/a).
+// Case A4 of the validation catalogue. Martin and Moyce 1952, n^2 = 2: Z = x / a over T = t sqrt(2 g / a); height at
+// the wall over t sqrt(g/a).
 TEST_CASE("A dam break runs as Martin and Moyce measured", "[cases][slow]") {
   const std::vector<std::array<double, 2>> front{{0.41, 1.11}, {0.84, 1.22}, {1.19, 1.44}, {1.43, 1.67}, {1.63, 1.89},
                                                  {1.83, 2.11}, {1.98, 2.33}, {2.20, 2.56}, {2.32, 2.78}, {2.51, 3.00},
@@ -117,7 +117,8 @@ TEST_CASE("A dam break runs as Martin and Moyce measured", "[cases][slow]") {
   for (const auto& [T, H] : height) CHECK(interpolated(heights, T) == Approx(H).margin(0.05));
 }
 
-// VALIDATION B6, full depth. Energy-conserving: 1/2 (Benjamin 1968); computed on 16, 32, 64 cells: 0.448, 0.466, 0.477.
+// Case B6 of the validation catalogue, full depth. Energy-conserving: 1/2 (Benjamin 1968); computed on 16, 32, 64
+// cells: 0.448, 0.466, 0.477.
 TEST_CASE("A heavy gas front approaches half of sqrt(g' H) as cells get finer", "[cases][slow]") {
   const double coarse = froude_number(16), middle = froude_number(32), fine = froude_number(64);
   CAPTURE(coarse, middle, fine);
@@ -127,7 +128,8 @@ TEST_CASE("A heavy gas front approaches half of sqrt(g' H) as cells get finer", 
   CHECK(0.5 - fine < 0.85 * (0.5 - middle));
 }
 
-// VALIDATION B5. Ghia, Ghia and Shin 1982, Re = 100: u = -0.21090 at z = 0.4531 of the vertical middle line.
+// Case B5 of the validation catalogue. Ghia, Ghia and Shin 1982, Re = 100: u = -0.21090 at z = 0.4531 of the vertical
+// middle line.
 TEST_CASE("The lid-driven box approaches Ghia's velocity as cells get finer", "[cases][slow]") {
   const double coarse = std::abs(lid_driven_minimum(16) + 0.2109), fine = std::abs(lid_driven_minimum(32) + 0.2109);
   CAPTURE(coarse, fine);
