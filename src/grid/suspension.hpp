@@ -26,10 +26,11 @@ struct SuspensionOptions {
   Vec<Dim> gravity = -9.81 * up<Dim>();                  ///< [m s^-2]
   double air_density = 1.2;                              ///< [kg m^-3]
   AdvectionScheme scheme = AdvectionScheme::maccormack;  ///< of the velocity
-  double viscosity = 0;                                  ///< kinematic, of the air [m^2 s^-1]
-  bool no_slip = false;                                  ///< closed sides hold the air by its viscosity
-  Vec<Dim> lid = Vec<Dim>::Zero();                       ///< velocity of a closed top that holds it [m s^-1]
-  double diffusivity = 0;                                ///< of the smoke [m^2 s^-1]
+  bool reflection = false;            ///< two projections a step, about the middle of it: second order in time
+  double viscosity = 0;               ///< kinematic, of the air [m^2 s^-1]
+  bool no_slip = false;               ///< closed sides hold the air by its viscosity
+  Vec<Dim> lid = Vec<Dim>::Zero();    ///< velocity of a closed top that holds it [m s^-1]
+  double diffusivity = 0;             ///< of the smoke [m^2 s^-1]
   double settling_speed = 0;          ///< of the smoke relative to the air, along gravity [m s^-1] (R19)
   Vec<Dim> wind = Vec<Dim>::Zero();   ///< velocity of the air that open sides let in [m s^-1]
   std::optional<double> confinement;  ///< epsilon of vorticity confinement
@@ -121,7 +122,10 @@ class Suspension {
   void classify(std::span<CoreCell<Dim>> cores);
   void update_active(int begin, int end);
   void move_smoke(double dt, Stages& stages);
+  void carry_velocity(double dt, Stages& stages);
+  void project(double dt, double weight, std::span<CoreCell<Dim>> cores, Stages& stages);
   void start_from_velocity();
+  void reflect(std::span<CoreCell<Dim>> cores, double dt, Stages& stages);
   void set_density();
 
   MacGrid<Dim> grid_;
@@ -135,8 +139,9 @@ class Suspension {
 
   Ground<Dim> ground_;
   FaceField<Dim, unsigned char> active_;
-  FaceField<Dim> flow_area_;  ///< open area of active faces [m^(Dim-1)], 0 of the others
-  FaceField<Dim> carrier_;    ///< divergence-free velocity of the step's start, which carries air and smoke
+  FaceField<Dim> flow_area_;    ///< open area of active faces [m^(Dim-1)], 0 of the others
+  FaceField<Dim> carrier_;      ///< divergence-free velocity of the step's start or middle, which carries air and smoke
+  FaceField<Dim> unprojected_;  ///< scratch of reflect(); empty without it
   RowSpeeds<Dim> carrier_speed_;
   bool disturbed_ = false;            ///< gravity or sources have changed the velocity since the last advance()
   std::optional<Vec<Dim>> momentum_;  ///< momentum() where the entries since the last step tell it

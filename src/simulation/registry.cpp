@@ -141,7 +141,9 @@ void add_smoke(Registry& r) {
   Rows<&Scene::suspension>(r, "suspension", "the air and its snow smoke, on a grid")
       .number<&U::cell_size>("cell_size", "m", above(0, 1e4), "dx", "Sec. 5")
       .number<&U::air_density>("air_density", "kg/m^3", above(0, 1e4), "rho_air", "Eq. (7)")
-      .words<&U::scheme>("scheme", {"maccormack", "semi_lagrangian"}, "of the air's advection", "Eq. (2)")
+      .words<&U::scheme>("scheme", {"maccormack", "semi_lagrangian", "reflection"},
+                         "of the air's advection; reflection: MacCormack with two projections a step, of second order",
+                         "Eq. (2)")
       .number<&U::viscosity>("viscosity", "m^2/s", from(0, 1e6), "kinematic, of the air", "Eq. (2)")
       .words<&U::wall>("wall", {"slip", "no_slip"},
                        "viscous stress at closed sides of the domain: none, or as at a wall")

@@ -104,7 +104,7 @@ struct ConfinementSection {
 struct SuspensionSection {
   double cell_size = 0.33;            ///< dx [m]
   double air_density = 1.2;           ///< [kg m^-3]
-  std::string scheme = "maccormack";  ///< "semi_lagrangian" | "maccormack"
+  std::string scheme = "maccormack";  ///< "semi_lagrangian" | "maccormack" | "reflection"
   double viscosity = 0;               ///< kinematic, of the air [m^2 s^-1]
   std::string wall = "slip";          ///< "slip" | "no_slip": of the viscous stress at closed sides
   std::vector<double> lid;            ///< velocity of the closed top [m s^-1] (no_slip), default 0

@@ -139,6 +139,7 @@ std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<D
   options.gravity = make_gravity<Dim>(scene);
   options.air_density = section.air_density;
   options.scheme = section.scheme == "semi_lagrangian" ? AdvectionScheme::semi_lagrangian : AdvectionScheme::maccormack;
+  options.reflection = section.scheme == "reflection";
   options.viscosity = section.viscosity;
   options.no_slip = section.wall == "no_slip";
   options.lid = vector_or<Dim>(section.lid, Vec<Dim>::Zero());

@@ -44,7 +44,8 @@ TEMPLATE_TEST_CASE_SIG("Mass is constant and every exchange cancels, step by ste
 
 TEMPLATE_TEST_CASE_SIG("The ledger accounts for all momentum of the snow and of the air", "[simulation]",
                        ((int Dim), Dim), 2, 3) {
-  Simulation<Dim> simulation(scene_of(avalanche<Dim>()));
+  const auto scheme = GENERATE(as<std::string>{}, "maccormack", "reflection");
+  Simulation<Dim> simulation(scene_of(avalanche<Dim>(), {"suspension.scheme=" + scheme}));
   const auto snow = [&] {
     Vec<Dim> sum = Vec<Dim>::Zero();
     const Particles<Dim>& p = simulation.dense()->particles;
