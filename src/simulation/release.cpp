@@ -21,12 +21,18 @@ bool inside(const std::vector<std::array<double, 2>>& corners, double x, double 
   return in;
 }
 
+/// Whether the cover lies anywhere along the ground from `from` to `to` [m].
+bool covered(const Scene& scene, double from, double to) {
+  if (!scene.cover) return false;
+  return to > scene.cover->from && (scene.cover->to < 0 || from < scene.cover->to);
+}
+
 template <int Dim>
 Slab slab_of(const Scene& scene, const ReleaseSection& release, const Walls<Dim>& walls) {
   Slab slab;
   slab.at = release.at;
   slab.length = release.length;
-  slab.base = scene.cover ? scene.cover->depth : 0;
+  slab.base = covered(scene, slab.at, slab.at + slab.length) ? scene.cover->depth : 0;
   slab.thickness = release.thickness;
   slab.y = breadth_of(walls.domain);
   return slab;
@@ -71,9 +77,7 @@ template <int Dim>
 bool in_cover(const Scene& scene, const Walls<Dim>& walls, const Vec<Dim>& x, double margin) {
   if (!scene.cover) return false;
   const Foot<Dim> foot = walls.terrain->foot(x);
-  const double to = scene.cover->to;
-  return foot.distance < scene.cover->depth + margin && foot.place[0] >= scene.cover->from &&
-         (to < 0 || foot.place[0] <= to);
+  return foot.distance < scene.cover->depth + margin && covered(scene, foot.place[0], foot.place[0]);
 }
 
 template <int Dim>

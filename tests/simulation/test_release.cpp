@@ -68,6 +68,22 @@ TEST_CASE("Snow is left out of ground, cover, obstacles and closed sides", "[rel
   CHECK(snow_of(snow_2d + ground + "[obstacle]\nlower = [5, 0]\nupper = [7, 5]\n" + box).releases[0].buried == 400);
 }
 
+TEST_CASE("A slab lies on the cover where there is one, else on the ground", "[release]") {
+  const std::string text = snow_2d +
+                           "[terrain]\nshape = \"polyline\"\npoints = [[0, 2], [20, 2]]\n[release]\nat = 5\n"
+                           "length = 2\nthickness = 1\n[cover]\ndepth = 0.5\n";
+  const auto lowest = [](const ReleasedSnow<2>& snow) {
+    double z = 1e9;
+    for (const Vec<2>& x : snow.particles.position) z = std::min(z, x[1]);
+    return z;
+  };
+  CHECK(lowest(snow_of(text)) == Approx(2.55));
+  CHECK(lowest(snow_of(text + "to = 4\n")) == Approx(2.05));
+  CHECK(lowest(snow_of(text + "from = 8\n")) == Approx(2.05));
+  CHECK(lowest(snow_of(text + "from = 6\n")) == Approx(2.55));
+  CHECK(snow_of(text + "from = 6\n").releases[0].buried == 0);
+}
+
 TEST_CASE("Shear and rotation start as they say", "[release]") {
   const ReleasedSnow<2> snow = snow_of(snow_2d +
                                        "[release]\nshape = \"box\"\nlower = [1, 1]\nupper = [3, 2]\nvelocity = [1, 2]\n"
