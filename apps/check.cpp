@@ -29,7 +29,7 @@ ExitCode check(const SceneArguments& arguments) {
   for (std::size_t k = 0; k < plan.grid.size(); ++k)
     grid = k == 0 ? count_text(plan.grid[k]) : grid + " x " + count_text(plan.grid[k]);
   row("scene", "{}, {}D, {:g} s", scene.scene.name, scene.scene.dim, scene.scene.end_time);
-  row("particles", "{} released, {} in the cover", count_text(plan.n_release), count_text(plan.n_cover));
+  row("particles", "about {} released, {} in the cover", count_text(plan.n_release), count_text(plan.n_cover));
   row("cells", "{} ({})", count_text(plan.n_cells), grid);
   row("frames", "{}", count_text(plan.n_frames));
   row("memory", "about {}, {} available", bytes_text(plan.memory), bytes_text(memory_available()));

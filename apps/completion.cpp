@@ -11,10 +11,11 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// The words that an option takes, from its validator's text "{csv,vtk}"; empty: any.
+/// The words that an option takes, from its validator's text "{csv,vtk}" or its type's "csv|vtk"; empty: any.
 Words values_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find('{'), close = type.find('}');
+  if (type.find('|') != std::string::npos) return CLI::detail::split(type, '|');
   if (open == std::string::npos || close == std::string::npos) return {};
   return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
 }

@@ -149,7 +149,7 @@ void add_export(CLI::App& app, Command& chosen) {
                    "vtk: .vtp, .vti and .pvd, for ParaView before 5.10, VisIt, PyVista, meshio\n"
                    "ply: point clouds, for Blender, Houdini, MeshLab, CloudCompare")
       ->required()
-      ->type_name("FORMAT");
+      ->type_name("csv|vtk|ply");
   command->add_option("-o,--output", arguments->output, "where to (default: export/ in the run folder)")
       ->type_name("DIR");
   CLI::Option* every = command->add_option("--every", arguments->every, "every Nth frame")
@@ -159,11 +159,11 @@ void add_export(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(0, 1000000000))
       ->type_name("N")
       ->excludes(every);
-  command->add_option("--only", arguments->only, "particles or smoke alone")->type_name("LAYER");
+  command->add_option("--only", arguments->only, "particles or smoke alone")->type_name("particles|smoke");
   command
       ->add_option("--smoke-above", arguments->smoke_above,
-                   "csv, ply: leave out cells with no more smoke than this [kg/m^3]")
-      ->check(CLI::NonNegativeNumber)
+                   "csv, ply: leave out cells with no more smoke than this [kg/m^3]; -1: none, for the wind")
+      ->check(CLI::Number)
       ->capture_default_str()
       ->type_name("DENSITY");
   command->footer(

@@ -11,12 +11,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Of a value of run.json; masses of 2D runs are per metre of width.
+std::string_view unit_of(const std::string& path, int dim) {
+  const std::string_view mass = dim == 2 ? "kg/m" : "kg";
+  if (path == "mass.error_relative") return "";
+  if (path.starts_with("mass") || path.starts_with("smoke_")) return mass;
+  if (path.starts_with("stages.") || path == "time" || path.starts_with("dt_m") || path == "wall_seconds") return "s";
+  if (path == "front_speed" || path == "front_speed_max") return "m/s";
+  if (path == "front_x") return "m along the ground";
+  if (path.starts_with("cloud_height") || path.starts_with("head_")) return "m";
+  if (path.starts_with("memory.") || path == "peak_memory_bytes") return "B";
+  return path == "ms_per_step" ? "ms" : "";
+}
+
+/// Six digits are enough for people; --json has them all.
+std::string text_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
+}
+
 /// One line a value, members of members joined by dots.
-void print(const std::string& path, const Json& value) {
+void print(const std::string& path, const Json& value, int dim) {
   if (value.is_object()) {
-    for (const auto& [name, inner] : value.items()) print(path.empty() ? name : path + "." + name, inner);
+    for (const auto& [name, inner] : value.items()) print(path.empty() ? name : path + "." + name, inner, dim);
   } else {
-    fmt::print("{:<32} {}\n", path, value.is_string() ? value.get<std::string>() : value.dump());
+    const std::string_view unit = unit_of(path, dim);
+    fmt::print("{:<32} {}{}{}\n", path, text_of(value), unit.empty() ? "" : " ", unit);
   }
 }
 
@@ -25,7 +45,7 @@ ExitCode info(const std::string& folder, bool as_json) {
   if (as_json) {
     fmt::print("{}\n", run.dump(2));
   } else {
-    print("", run);
+    print("", run, run.value("dim", 2));
   }
   return ExitCode::done;
 }

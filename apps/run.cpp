@@ -4,11 +4,16 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "plain_text.hpp"
+#include "run_folder.hpp"
 #include "run_talk.hpp"
 #include "simulation/plan.hpp"
 #include "simulation/scene_reader.hpp"
@@ -21,7 +26,7 @@ struct RunArguments {
   std::string folder, until, seed, frames_per_second;
   int threads = 0;
   std::string profile;
-  bool no_preview = false, quiet = false, log_json = false;
+  bool no_preview = false, quiet = false, log_json = false, overwrite = false;
 };
 
 std::atomic<bool> stop_asked = false, speak_on_signals = false;
@@ -56,12 +61,37 @@ TalkStyle style_of(const RunArguments& arguments) {
   return arguments.quiet ? TalkStyle::quiet : TalkStyle::text;
 }
 
+/// Results of another scene, or files that are no run's, are not replaced unasked.
+void guard_folder(const std::filesystem::path& folder, const RunArguments& arguments, RunTalk& talk) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error) || std::filesystem::is_empty(folder, error)) return;
+  constexpr std::string_view ways_out = "choose another folder with -o, or replace it with --overwrite";
+  const auto refuse = [&](const std::string& what) {
+    if (!arguments.overwrite)
+      throw Error(ExitCode::bad_input, fmt::format("{} {}; {}", folder.string(), what, ways_out));
+  };
+  if (!std::filesystem::exists(folder / "run.json", error)) return refuse("is not empty and holds no run");
+  const auto run = read_run_json(folder);
+  const std::string other = run.value("scene_file", ""), status = run.value("status", "");
+  const std::string text = fmt::format("the run of {} ({}, {:g} s)", other, status, run.value("time", 0.0));
+  if (other != arguments.scene.file) refuse("holds " + text);
+  talk.warn(fmt::format("{}: replacing {}", folder.string(), text));
+}
+
+/// That the profile can be written is found out before the run, not after it.
+void require_writable(const std::string& file) {
+  if (file.empty() || std::ofstream(file, std::ios::app)) return;
+  throw Error(ExitCode::io_failed, fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
+}
+
 ExitCode run(const RunArguments& arguments) {
   std::filesystem::path folder = arguments.folder;
   Plan plan;
   RunTalk talk(style_of(arguments));
   const auto warn = [&talk](const std::string& line) { talk.warn(line); };
   const Scene scene = read_and_judge({arguments.scene.file, settings(arguments)}, folder, plan, warn);
+  guard_folder(folder, arguments, talk);
+  require_writable(arguments.profile);
   talk.start(scene, plan, folder);
   speak_on_signals = style_of(arguments) == TalkStyle::text;
   stop_on_signals();
@@ -103,8 +133,10 @@ void add_run(CLI::App& app, Command& chosen) {
   command->add_option("--frames-per-second", arguments->frames_per_second, "frames written per simulated second")
       ->type_name("F");
   command->add_flag("--no-preview", arguments->no_preview, "draw no pictures, make no film");
+  command->add_flag("--overwrite", arguments->overwrite, "replace what the folder holds, whatever it is");
   command->add_flag("--quiet", arguments->quiet, "say nothing unless it fails");
-  command->add_flag("--log-json", arguments->log_json, "tell progress as JSON, one object a line, for programs");
+  command->add_flag("--log-json", arguments->log_json,
+                    "tell progress on stderr as JSON, one object a line, for programs");
   command->add_option("--profile", arguments->profile, "write the time of every pass, for ui.perfetto.dev")
       ->type_name("FILE");
   command->footer(

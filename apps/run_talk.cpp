@@ -75,7 +75,7 @@ RunTalk::RunTalk(TalkStyle style)
 
 void RunTalk::start(const Scene& scene, const Plan& plan, const std::filesystem::path& folder) {
   folder_ = folder;
-  log(fmt::format("spindrift {}: {}, {}D, {:g} s, seed {}; {} released and {} cover particles, {} cells",
+  log(fmt::format("spindrift {}: {}, {}D, {:g} s, seed {}; about {} released and {} cover particles, {} cells",
                   SPINDRIFT_VERSION, scene.scene.name, scene.scene.dim, scene.scene.end_time, scene.scene.seed,
                   count_text(plan.n_release), count_text(plan.n_cover), count_text(plan.n_cells)));
   if (style_ == TalkStyle::json)
@@ -84,9 +84,9 @@ void RunTalk::start(const Scene& scene, const Plan& plan, const std::filesystem:
          {"scene", scene.scene.name},
          {"folder", folder.string()},
          {"end_time", scene.scene.end_time},
-         {"n_release", plan.n_release},
-         {"n_cover", plan.n_cover},
-         {"n_cells", plan.n_cells}});
+         {"n_release", static_cast<std::uint64_t>(plan.n_release)},
+         {"n_cover", static_cast<std::uint64_t>(plan.n_cover)},
+         {"n_cells", static_cast<std::uint64_t>(plan.n_cells)}});
 }
 
 void RunTalk::warn(const std::string& line) {

@@ -9,14 +9,17 @@ import argparse
 import pathlib
 import sys
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")  # a file, no window
-import matplotlib.pyplot as plt
-import numpy as np
-from matplotlib.colors import LogNorm
+    matplotlib.use("Agg")  # a file, no window
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from matplotlib.colors import LogNorm
 
-from spindrift_reader import Run
+    from spindrift_reader import Run
+except ModuleNotFoundError as missing:
+    sys.exit(f"{missing}; ./dev extras installs it for Debian's /usr/bin/python3")
 
 CLOUD = 1e-3  # [kg/m^3], the thinnest smoke that is drawn
 GROUND = "#b5a58f"

@@ -57,11 +57,16 @@ std::vector<std::array<double, 2>> read_points(const std::filesystem::path& file
     if (words.empty()) continue;
     const bool heading = std::exchange(first, false) && !number(words[0]);
     if (heading) continue;
-    if (words.size() != 2) refuse(fmt::format("got {} values, expected two numbers: x and z", words.size()));
+    if (words.size() != 2)
+      refuse(fmt::format("got {} value{}, expected two numbers: x and z", words.size(), words.size() == 1 ? "" : "s"));
     for (const std::string_view word : words)
       if (!number(word)) refuse(fmt::format("got \"{}\", expected a finite number", word.substr(0, 40)));
     points.push_back({*number(words[0]), *number(words[1])});
+    if (const std::size_t k = points.size(); k > 1 && points[k - 1][0] < points[k - 2][0])
+      refuse(fmt::format("x = {} lies left of x = {} of the point before; x may not decrease", points[k - 1][0],
+                         points[k - 2][0]));
   }
+  if (points.empty()) throw PointFileError(fmt::format("{} holds no points", file.string()));
   return points;
 }
 

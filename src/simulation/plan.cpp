@@ -167,7 +167,7 @@ double disk_available(const std::filesystem::path& folder) {
   std::filesystem::path place = std::filesystem::absolute(folder, error);
   while (!std::filesystem::exists(place, error) && place.has_relative_path()) place = place.parent_path();
   const auto space = std::filesystem::space(place, error);
-  return error ? std::numeric_limits<double>::infinity() : static_cast<double>(space.available);
+  return error || space.capacity == 0 ? std::numeric_limits<double>::infinity() : static_cast<double>(space.available);
 }
 
 void require_fit(const Scene& scene, const Plan& plan, const std::filesystem::path& folder) {

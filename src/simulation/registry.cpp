@@ -68,7 +68,8 @@ void add_setting(Registry& r) {
       .number<&T::cliff_height>("cliff_height", "m", extent, "height of the cliff")
       .with("shape", {"polyline"})
       .number<&T::points>("points", "m", position, "vertices (x, z) from left to right")
-      .plain<&T::file>("file", "text file of such vertices, one a line; its path is seen from the scene file");
+      .plain<&T::file>(
+          "file", "text file of such vertices, one \"x z\" in metres a line; its path is seen from the scene file");
 
   using B = ObstacleSection;
   Rows<&Scene::obstacle>(r, "obstacle", "a solid box, for snow and air; there may be several")
@@ -209,7 +210,8 @@ void add_rest(Registry& r) {
 
   using O = OutputSection;
   Rows<&Scene::output>(r, "output", "what the run folder gets")
-      .number<&O::frames_per_second>("frames_per_second", "1/s", from(0, 1e5), "of simulated time")
+      .number<&O::frames_per_second>("frames_per_second", "1/s", from(0, 1e5),
+                                     "of simulated time; 0: none but the start")
       .plain<&O::particles>("particles", "write the particles of each frame")
       .plain<&O::smoke>("smoke", "write the smoke of each frame")
       .plain<&O::preview>("preview", "draw a picture of each frame")

@@ -161,7 +161,7 @@ class Checker {
   }
 
   void polyline(const std::vector<std::array<double, 2>>& points) {
-    constexpr std::string_view path = "terrain.points";
+    const std::string_view path = places_.contains("terrain.file") ? "terrain.file" : "terrain.points";
     if (!report_.good({path})) return;
     if (points.size() < 2) return add(path, fmt::format("got {} points, expected at least 2 (x, z)", points.size()));
     for (std::size_t i = 1; i < points.size(); ++i) {

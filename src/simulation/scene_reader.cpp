@@ -192,6 +192,10 @@ class Reader {
   void read_terrain_file(const std::filesystem::path& folder) {
     constexpr std::string_view path = "terrain.file";
     if (!scene_.terrain || scene_.terrain->file.empty() || !report_.good({path, "terrain.points"})) return;
+    if (scene_.terrain->shape != "polyline" && report_.good({"terrain.shape"}))
+      return report_.add(place_of(places_, path), path,
+                         fmt::format("needs terrain.shape = \"polyline\"; it is \"{}\" at {}", scene_.terrain->shape,
+                                     report_.text_of(place_of(places_, "terrain.shape"))));
     if (places_.contains("terrain.points")) return contradict(std::string(path), "terrain.points");
     const std::filesystem::path file = folder / std::exchange(scene_.terrain->file, {});
     try {
@@ -238,6 +242,17 @@ std::string name_from(const std::string& file) {
   throw Error(ExitCode::bad_input, fmt::format("{}: {}", file, why));
 }
 
+/// The scene beside it whose name is nearest.
+std::string suggest_scene(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return did_you_mean(file.filename().string(), std::vector<std::string_view>(names.begin(), names.end()));
+}
+
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& file, const std::vector<std::string>& settings,
@@ -259,7 +274,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   constexpr std::size_t most = 4 * 1024 * 1024;
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) refuse(file.string(), "there is no such file");
+  if (!std::filesystem::exists(status)) refuse(file.string(), "there is no such file" + suggest_scene(file));
   if (!std::filesystem::is_regular_file(status)) refuse(file.string(), "not a regular file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
   if (!stream) refuse(file.string(), "cannot be opened for reading");

@@ -26,6 +26,9 @@ must be there. Every other section switches its part of the physics on, with the
 - **2D** is a slice one metre wide: masses are per metre of width.
 - **Several of a kind**: `[[release]]`, `[[obstacle]]` and `[[smoke]]` may stand more than once; a single one may also
   be written `[release]`. `--set release[1].thickness=3` changes the second of them.
+- **Terrain from a file**: `shape = "polyline"` with `file = "profile.txt"`, one point `x z` [m] a line, x from left to
+  right; blanks, commas or semicolons between, `#` begins a comment, a first line of words counts for nothing. The first
+  and the last piece go on beyond the points.
 - **Presets**: `scene.preset` chooses the defaults: `physical`, measured snow, or `paper`, the constants of the paper.
 - **Mistakes** are told with file, line and column, what was expected and what was probably meant, all at once, before
   anything is written. What can be run but hardly makes sense gets a warning with its reason.

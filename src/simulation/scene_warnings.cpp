@@ -77,7 +77,12 @@ class Warner {
         add(path,
             fmt::format("{} of {} m is thinner than one particle of {} m", what, number_text(size), number_text(d)));
     };
-    if (scene_.suspension && scene_.suspension->cell_size < d)
+    if (scene_.suspension && scene_.suspension->cell_size > 20 * d)
+      add("suspension.cell_size",
+          fmt::format("cells of {} m are {:.0f} times as large as the particles' spacing of {} m: the air hardly sees "
+                      "the flow",
+                      number_text(scene_.suspension->cell_size), scene_.suspension->cell_size / d, number_text(d)));
+    if (scene_.suspension && scene_.suspension->cell_size < 0.8 * d)
       add("suspension.cell_size",
           fmt::format("cells of {} m are finer than the particles, {} m apart: the air would see every single one, at "
                       "{:.0f} times the cost of cells of that size",

@@ -107,6 +107,7 @@ TEST_CASE("bash completes commands, options, keys and their words", "[commands]"
   CHECK(completed("spindrift run a.toml --set output.smoke=") == "true false\n");
   CHECK(completed("spindrift scene --preset p") == "physical paper\n");
   CHECK(completed("spindrift run a.toml --set zzz") == "\n");
+  CHECK(completed("spindrift export r --to p") == "ply\n");
 }
 
 TEST_CASE("check warns of what hardly makes sense, with place and reason", "[commands]") {
@@ -124,7 +125,7 @@ TEST_CASE("check tells what a run would need, and writes nothing", "[commands]")
   const Outcome outcome = place.run("check a.toml --set suspension.cell_size=0.2 --set scene.end_time='2 s'");
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
-  CHECK(outcome.out.find("scene       a, 2D, 2 s\nparticles   50 released, 0 in the cover\n") == 0);
+  CHECK(outcome.out.find("scene       a, 2D, 2 s\nparticles   about 50 released, 0 in the cover\n") == 0);
   CHECK(outcome.out.find("cells       800 (40 x 20)\nframes      21\nmemory      about ") != std::string::npos);
   CHECK(place.n_entries() == 1);
 }
@@ -147,8 +148,8 @@ TEST_CASE("info tells what run.json holds", "[commands]") {
   const Outcome plain = place.run("info r");
   CHECK(plain.code == 0);
   CHECK(plain.out ==
-        "status                           done\ntime                             2.5\n"
-        "mass.initial                     10\nmass.dense                       9\n");
+        "status                           done\ntime                             2.5 s\n"
+        "mass.initial                     10 kg/m\nmass.dense                       9 kg/m\n");
   const Outcome json = place.run("info r --json");
   CHECK(json.code == 0);
   CHECK(json.out.find("{\n  \"status\": \"done\",\n  \"time\": 2.5,") == 0);
@@ -193,6 +194,31 @@ TEST_CASE("a run tells programs where it stands, and keeps a log and a profile",
   CHECK(bad.code == 5);
   const nlohmann::json error = nlohmann::json::parse(bad.err.substr(bad.err.rfind("{\"event\":\"error\"")));
   CHECK(error["code"] == 5);
+}
+
+TEST_CASE("a run replaces its own scene's results, and others only when told to", "[commands]") {
+  const Workplace place;
+  place.write("a.toml", scene);
+  place.write("b.toml", scene);
+  CHECK(place.run("run a.toml -o out").code == 0);
+  CHECK(place.run("run a.toml -o out").err.starts_with("out: replacing the run of a.toml (done, 0.02 s)\n"));
+  const Outcome other = place.run("run b.toml -o out");
+  CHECK(other.code == 2);
+  CHECK(other.err ==
+        "out holds the run of a.toml (done, 0.02 s); choose another folder with -o, or replace it with --overwrite\n");
+  CHECK(place.run("info out").out.find("a.toml") != std::string::npos);
+  CHECK(place.run("run b.toml -o out --overwrite").code == 0);
+  fs::create_directories(place.folder() / "docs");
+  place.write("docs/letter.txt", "dear");
+  CHECK(place.run("run a.toml -o docs").err.starts_with("docs is not empty and holds no run; choose another folder"));
+  CHECK(std::distance(fs::directory_iterator(place.folder() / "docs"), {}) == 1);
+}
+
+TEST_CASE("a scene that is not there: the nearest beside it", "[commands]") {
+  const Workplace place;
+  place.write("quickstart.toml", scene);
+  CHECK(place.run("check quikstart.toml").err ==
+        "quikstart.toml: there is no such file; did you mean \"quickstart.toml\"?\n");
 }
 
 TEST_CASE("a run that is asked to stop ends after its step", "[commands]") {

@@ -13,7 +13,9 @@ TEST_CASE("points come from lines of two numbers", "[io]") {
     return read_points(folder.path() / "p.txt");
   };
   using Points = std::vector<std::array<double, 2>>;
-  CHECK(read("") == Points{});
+  CHECK_THROWS_WITH(read("# nothing\n"), Catch::EndsWith("p.txt holds no points"));
+  CHECK_THROWS_WITH(read("0 1\n5 1\n4 1\n"),
+                    Catch::EndsWith("p.txt:3: x = 4 lies left of x = 5 of the point before; x may not decrease"));
   CHECK(read("x,z\n0,1\n2.5,-3e-1\n") == Points{{0, 1}, {2.5, -0.3}});
   CHECK(read("# profile\n\n 0\t1 # here\r\n2;3\n") == Points{{0, 1}, {2, 3}});
   CHECK_THROWS_WITH(read("0 1\n2 3 4\n"), Catch::EndsWith("p.txt:2: got 3 values, expected two numbers: x and z"));

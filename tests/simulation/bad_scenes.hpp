@@ -190,6 +190,8 @@ inline std::vector<BadScene> bad_scenes() {
                "a.toml:7:8: terrain.file: there is no file no_such_profile.txt"},
       BadScene{head + "[terrain]\nshape = \"polyline\"\nfile = \"p.txt\"\npoints = [[0, 1], [2, 1]]\n",
                "a.toml:7:8: terrain.file: contradicts terrain.points at a.toml:8:10: leave out one"},
+      BadScene{head + "[terrain]\nfile = \"p.txt\"\n",
+               "a.toml:6:8: terrain.file: needs terrain.shape = \"polyline\"; it is \"slope\" at a.toml:5:2"},
       BadScene{head + "[obstacle]\nlower = [0, 0]\n",
                "a.toml:5:2: obstacle.upper: missing, expected a list of 2 lengths"},
       BadScene{head + "[smoke]\nlower = [0, 0]\nupper = [1, 1]\n",
