@@ -26,6 +26,8 @@ class Warner {
     keys_without_effect();
     sections();
     sizes();
+    densities();
+    obstacles();
     air();
     scene_.scene.dim == 3 ? places<3>() : places<2>();
     return std::move(lines_);
@@ -69,44 +71,51 @@ class Warner {
     if (!s.dense_flow && !s.suspension) add("domain", "nothing to compute: neither [dense_flow] nor [suspension]");
   }
 
+  double spacing() const { return scene_.dense_flow->support_radius / 2; }
+
   void sizes() {
     if (!scene_.dense_flow) return;
-    const double d = scene_.dense_flow->support_radius / 2;
-    const auto thinner = [&](const std::string& path, double size, const char* what) {
-      if (size < d)
-        add(path,
-            fmt::format("{} of {} m is thinner than one particle of {} m", what, number_text(size), number_text(d)));
-    };
-    if (scene_.suspension && scene_.suspension->cell_size > 20 * d)
-      add("suspension.cell_size",
-          fmt::format("cells of {} m are {:.0f} times as large as the particles' spacing of {} m: the air hardly sees "
-                      "the flow",
-                      number_text(scene_.suspension->cell_size), scene_.suspension->cell_size / d, number_text(d)));
-    if (scene_.suspension && scene_.suspension->cell_size < 0.8 * d)
+    const double d = spacing();
+    if (scene_.cover && scene_.cover->depth < d)
+      add("cover.depth", fmt::format("a cover of {} m is thinner than one particle of {} m",
+                                     number_text(scene_.cover->depth), number_text(d)));
+    if (!scene_.suspension) return;
+    const double dx = scene_.suspension->cell_size;
+    if (dx > 20 * d)
+      add("suspension.cell_size", fmt::format("cells of {} m are {:.0f} times as large as the particles' spacing of {} "
+                                              "m: the air hardly sees the flow",
+                                              number_text(dx), dx / d, number_text(d)));
+    if (dx < 0.8 * d)
       add("suspension.cell_size",
           fmt::format("cells of {} m are finer than the particles, {} m apart: the air would see every single one, at "
                       "{:.0f} times the cost of cells of that size",
-                      number_text(scene_.suspension->cell_size), number_text(d),
-                      std::pow(d / scene_.suspension->cell_size, scene_.scene.dim + 1)));
-    if (scene_.cover) thinner("cover.depth", scene_.cover->depth, "a cover");
+                      number_text(dx), number_text(d), std::pow(d / dx, scene_.scene.dim + 1)));
+  }
+
+  void densities() {
     for (std::size_t i = 0; i < scene_.release.size(); ++i) {
-      const ReleaseSection& release = scene_.release[i];
-      const std::string name = numbered("release", i, scene_.release.size());
+      const double own = scene_.release[i].density;
       const double density = scene_.dense_flow->density, time = scene_.dense_flow->compaction_time;
-      if (release.density > 0 && release.density != density && time > 0)
-        add(name + ".density", fmt::format("snow takes on dense_flow.density = {} kg/m^3 within the {} s of "
-                                           "dense_flow.compaction_time; 0 s there lets it keep its own",
-                                           number_text(density), number_text(time)));
+      if (own > 0 && own != density && time > 0)
+        add(numbered("release", i, scene_.release.size()) + ".density",
+            fmt::format("snow takes on dense_flow.density = {} kg/m^3 within the {} s of dense_flow.compaction_time; "
+                        "0 s there lets it keep its own",
+                        number_text(density), number_text(time)));
     }
-    double least = 2 * d;
-    if (scene_.suspension) least = std::max(least, 2 * scene_.suspension->cell_size);
+  }
+
+  void obstacles() {
+    const double of_snow = scene_.dense_flow ? 2 * spacing() : 0;
+    const double least = std::max(of_snow, scene_.suspension ? 2 * scene_.suspension->cell_size : 0);
     for (std::size_t i = 0; i < scene_.obstacle.size(); ++i) {
       const ObstacleSection& obstacle = scene_.obstacle[i];
-      for (std::size_t k = 0; k < obstacle.lower.size(); ++k)
-        if (obstacle.upper[k] - obstacle.lower[k] < least)
-          add(numbered("obstacle", i, scene_.obstacle.size()),
-              fmt::format("thinner than two particles or cells ({} m): snow or smoke may pass through it",
-                          number_text(least)));
+      double thickness = obstacle.upper[0] - obstacle.lower[0];
+      for (std::size_t k = 1; k < obstacle.lower.size(); ++k)
+        thickness = std::min(thickness, obstacle.upper[k] - obstacle.lower[k]);
+      if (thickness < least)
+        add(numbered("obstacle", i, scene_.obstacle.size()),
+            fmt::format("thinner than two particles or cells ({} m): snow or smoke may pass through it",
+                        number_text(least)));
     }
   }
 
