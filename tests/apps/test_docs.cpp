@@ -62,8 +62,8 @@ std::string reason_to_skip(const std::string& line, const std::string& python) {
   return "";
 }
 
-/// The command as it runs here: the built program in place of ./dev, the Python that has the packages, and of studies,
-/// which take hours, their help.
+/// The command as it runs here: the built program in place of ./dev, the Python that has the packages; of studies,
+/// which take hours, their help, and of loops over scenes the first half second of each.
 std::string runnable(std::string line, const std::string& python) {
   const auto replace = [&line](const std::string& from, const std::string& to) {
     if (line.starts_with(from)) line.replace(0, from.size(), to);
@@ -71,6 +71,7 @@ std::string runnable(std::string line, const std::string& python) {
   const bool study = line.find("studies/") != std::string::npos;
   replace("./dev run ", "build/release/spindrift run ");
   replace("python3 ", "'" + python + "' ");
+  if (line.starts_with("for ")) line.replace(line.rfind("; done"), 0, " --until 0.5");
   return study ? line.substr(0, line.find('#')) + " --help" : line;
 }
 
