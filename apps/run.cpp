@@ -38,8 +38,7 @@ void stop_on_signals() {
   action.sa_handler = [](int) {
     stop_asked = true;
     constexpr std::string_view text = "\nstopping after this step; once more ends at once\n";
-    if (speak_on_signals) [[maybe_unused]]
-      const auto n = write(STDERR_FILENO, text.data(), text.size());
+    if (speak_on_signals && write(STDERR_FILENO, text.data(), text.size()) < 0) return;
   };
   action.sa_flags = SA_RESETHAND;
   sigaction(SIGINT, &action, nullptr);
@@ -71,11 +70,18 @@ void guard_folder(const std::filesystem::path& folder, const RunArguments& argum
       throw Error(ExitCode::bad_input, fmt::format("{} {}; {}", folder.string(), what, ways_out));
   };
   if (!std::filesystem::exists(folder / "run.json", error)) return refuse("is not empty and holds no run");
-  const auto run = read_run_json(folder);
-  const std::string other = run.value("scene_file", ""), status = run.value("status", "");
-  const std::string text = fmt::format("the run of {} ({}, {:g} s)", other, status, run.value("time", 0.0));
-  if (other != arguments.scene.file) refuse("holds " + text);
-  talk.warn(fmt::format("{}: replacing {}", folder.string(), text));
+  try {
+    const auto run = read_run_json(folder);
+    const std::string other = run.value("scene_file", ""), status = run.value("status", "");
+    const std::string text = fmt::format("the run of {} ({}, {:g} s)", other, status, run.value("time", 0.0));
+    if (other != arguments.scene.file) refuse("holds " + text);
+    talk.warn(fmt::format("{}: replacing {}", folder.string(), text));
+  } catch (const nlohmann::json::exception&) {
+    refuse("holds a run.json that is not ours");
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::incompatible_file) throw;
+    refuse("holds a run.json that cannot be read");
+  }
 }
 
 /// That the profile can be written is found out before the run, not after it.

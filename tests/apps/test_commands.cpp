@@ -208,6 +208,11 @@ TEST_CASE("a run replaces its own scene's results, and others only when told to"
         "out holds the run of a.toml (done, 0.02 s); choose another folder with -o, or replace it with --overwrite\n");
   CHECK(place.run("info out").out.find("a.toml") != std::string::npos);
   CHECK(place.run("run b.toml -o out --overwrite").code == 0);
+  for (const char* broken : {"{", "[]", "{\"scene_file\": 3}"}) {
+    place.write("out/run.json", broken);
+    CHECK(place.run("run b.toml -o out").code == 2);
+    CHECK(place.run("run b.toml -o out --overwrite").code == 0);
+  }
   fs::create_directories(place.folder() / "docs");
   place.write("docs/letter.txt", "dear");
   CHECK(place.run("run a.toml -o docs").err.starts_with("docs is not empty and holds no run; choose another folder"));
