@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <thread>
 
 #include "commands.hpp"
+#include "core/parallel.hpp"
 #include "plain_text.hpp"
 #include "simulation/plan.hpp"
 #include "simulation/scene_reader.hpp"
@@ -35,8 +35,7 @@ ExitCode check(const SceneArguments& arguments) {
   row("memory", "about {}, {} available", bytes_text(plan.memory), bytes_text(memory_available()));
   row("disk", "about {}, {} left at {}", bytes_text(plan.disk), bytes_text(disk_available(folder)), folder.string());
   row("steps", "about {}", count_text(std::round(plan.n_steps / 10) * 10));
-  row("time", "about {} on {} threads, up to three times more or less", duration_text(plan.seconds),
-      std::max(1u, std::thread::hardware_concurrency()));
+  row("time", "about {} on {} threads, up to three times more or less", duration_text(plan.seconds), n_threads());
   return ExitCode::done;
 }
 

@@ -22,6 +22,9 @@ void add_info(CLI::App& app, Command& chosen);
 void add_completion(CLI::App& app, Command& chosen);
 void add_export(CLI::App& app, Command& chosen);
 
+/// Calls f for every option of the command that has a long name, those of its groups too.
+void for_each_option(const CLI::App& command, const std::function<void(const CLI::Option&)>& f);
+
 /// A scene file and what the command line changes in it.
 struct SceneArguments {
   std::string file;

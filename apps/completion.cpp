@@ -20,13 +20,6 @@ Words values_of(const CLI::Option& option) {
   return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
 }
 
-void for_each_option(const CLI::App& command, const std::function<void(const CLI::Option&)>& f) {
-  for (const CLI::Option* option : command.get_options())
-    if (!option->get_lnames().empty()) f(*option);
-  for (const CLI::App* group : command.get_subcommands(nullptr))
-    if (group->get_name().empty()) for_each_option(*group, f);
-}
-
 Words commands_of(const CLI::App& app) {
   Words names;
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
@@ -132,6 +125,13 @@ compdef _spindrift spindrift
 )sh";
 
 }  // namespace
+
+void for_each_option(const CLI::App& command, const std::function<void(const CLI::Option&)>& f) {
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_lnames().empty()) f(*option);
+  for (const CLI::App* group : command.get_subcommands(nullptr))
+    if (group->get_name().empty()) for_each_option(*group, f);
+}
 
 void add_completion(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("completion", "Print a script that completes commands, options and keys");

@@ -21,18 +21,14 @@ int failed(ExitCode code, std::string_view message) {
 /// The parser's complaint, or a better one: the first word that is no command or option, and what was meant.
 std::string complaint(const CLI::App& app, int argc, char** argv, const CLI::ParseError& error) {
   std::vector<std::string_view> commands, options;
-  const auto gather = [&](const auto& self, const CLI::App& from) -> void {
-    for (const CLI::Option* option : from.get_options())
-      for (const std::string& name : option->get_lnames()) options.push_back(name);
-    for (const CLI::App* group : from.get_subcommands(nullptr))
-      if (group->get_name().empty()) self(self, *group);
-  };
   const CLI::App* command = nullptr;
   for (const CLI::App* sub : app.get_subcommands(nullptr)) {
     commands.push_back(sub->get_name());
     if (argc > 1 && sub->get_name() == argv[1]) command = sub;
   }
-  gather(gather, command ? *command : app);
+  for_each_option(command ? *command : app, [&](const CLI::Option& option) {
+    for (const std::string& name : option.get_lnames()) options.push_back(name);
+  });
   const std::string help = fmt::format("\nSee {} --help.", command ? "spindrift " + command->get_name() : "spindrift");
   if (argc > 1 && !command && argv[1][0] != '-')
     return fmt::format("there is no command \"{}\"{}{}", argv[1], did_you_mean(argv[1], commands), help);

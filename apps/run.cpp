@@ -104,7 +104,6 @@ ExitCode run(const RunArguments& arguments) {
 
   RunOptions options;
   options.folder = folder;
-  options.quiet = arguments.quiet;
   options.threads = arguments.threads;
   options.scene_file = arguments.scene.file;
   options.stop = &stop_asked;

@@ -258,8 +258,8 @@ std::size_t Suspension<Dim>::bytes() const {
                   confinement_.bytes() + core_boundary_.bytes() + components_.bytes() +
                   spindrift::bytes(face_momentum_) + spindrift::bytes(smoke_span_, dense_span_);
   for (std::size_t axis = 0; axis < Dim; ++axis)
-    n += velocity_[axis].bytes() + carrier_[axis].bytes() + active_[axis].bytes() + flow_area_[axis].bytes() +
-         spindrift::bytes(carrier_speed_[axis]);
+    n += velocity_[axis].bytes() + carrier_[axis].bytes() + unprojected_[axis].bytes() + active_[axis].bytes() +
+         flow_area_[axis].bytes() + spindrift::bytes(carrier_speed_[axis]);
   return n;
 }
 

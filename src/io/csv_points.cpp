@@ -33,7 +33,7 @@ std::string csv_text(const PointCloud& cloud) {
     }
   text.push_back('\n');
 
-  const std::size_t n = cloud.positions.n_values() / static_cast<std::size_t>(cloud.positions.components);
+  const std::size_t n = cloud.n_points();
   for (std::size_t i = 0; i < n; ++i) {
     comma = "";
     for (const NamedArray& array : columns) {

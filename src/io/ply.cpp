@@ -73,7 +73,7 @@ Bytes ply_bytes(const PointCloud& cloud) {
   positions.name.clear();
   std::vector<Column> columns{{&positions, type_of(positions)}};
   for (const NamedArray& array : cloud.arrays) columns.push_back({&array, type_of(array)});
-  const std::size_t n = positions.n_values() / static_cast<std::size_t>(positions.components);
+  const std::size_t n = cloud.n_points();
 
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   for (const Attribute& attribute : cloud.attributes) header += "comment " + comment(attribute) + "\n";

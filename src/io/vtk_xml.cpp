@@ -92,7 +92,7 @@ void point_data(XmlFile& file, const std::vector<NamedArray>& arrays) {
 }  // namespace
 
 std::vector<std::byte> vtp_bytes(const PointCloud& cloud, double time) {
-  const std::size_t n = cloud.positions.n_values() / static_cast<std::size_t>(cloud.positions.components);
+  const std::size_t n = cloud.n_points();
   std::vector<std::int64_t> numbers(n + 1);
   std::iota(numbers.begin(), numbers.end(), 0);
   const std::span<const std::int64_t> all = numbers;

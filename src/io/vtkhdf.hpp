@@ -3,6 +3,7 @@
 /// Two dimensions: everything lies in the x-z plane, and arrays of two components (x, z) are stored as (x, 0, z).
 /// The group /spindrift holds the attributes, the format's version and a digest of the arrays as stored.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,10 @@ struct PointCloud {
   NamedArray positions;
   std::vector<NamedArray> arrays;
   Attributes attributes;
+
+  std::size_t n_points() const {
+    return positions.n_values() / static_cast<std::size_t>(std::max(positions.components, 1));
+  }
 };
 
 /// A box of points, x fastest, then y, then z.

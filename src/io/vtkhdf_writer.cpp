@@ -200,7 +200,7 @@ std::vector<std::byte> told(F&& build) {
 }  // namespace
 
 std::vector<std::byte> vtkhdf_bytes(const PointCloud& cloud) {
-  const std::size_t n = cloud.positions.n_values() / static_cast<std::size_t>(std::max(cloud.positions.components, 1));
+  const std::size_t n = cloud.n_points();
   std::vector<NamedArray> inputs = cloud.arrays;
   inputs.push_back({vtkhdf::positions, cloud.positions.components, cloud.positions.values});
   const ArraysToStore arrays(inputs, n, n, 1);

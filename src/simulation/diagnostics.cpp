@@ -1,5 +1,7 @@
 #include "simulation/diagnostics.hpp"
 
+#include "io/component_names.hpp"
+
 namespace spindrift {
 
 template <int Dim>
@@ -59,9 +61,7 @@ std::vector<Diagnostic> diagnostics(const Simulation<Dim>& s, const Instruments<
 
 template <int Dim>
 std::string heading(const Diagnostic& diagnostic) {
-  std::string text(diagnostic.name);
-  if (diagnostic.axis >= 0) text += std::string("_") + (Dim == 2 ? "xz" : "xyz")[diagnostic.axis];
-  return text;
+  return component_name(std::string(diagnostic.name), diagnostic.axis < 0 ? 1 : Dim, diagnostic.axis);
 }
 
 template std::vector<Diagnostic> diagnostics<2>(const Simulation<2>&, const Instruments<2>&);

@@ -9,9 +9,10 @@
 #include <numbers>
 #include <numeric>
 #include <string>
-#include <thread>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "simulation/simulation.hpp"
 
 namespace spindrift {
 namespace {
@@ -22,7 +23,6 @@ constexpr double file_bytes_per_particle = 12, file_bytes_per_cell = 8, bytes_pe
 constexpr double bytes_per_diagnostics_row = 800;
 // Seconds of one core, as measured.
 constexpr double seconds_per_dense_step = 1.9e-6, seconds_per_cell_step = 5.5e-8, seconds_per_frame = 0.05;
-constexpr double longest_step = 0.01;  // [s]
 constexpr double growth_by_cover = 2;  // of the number of moving particles, as a mean over a run
 
 /// Arc length of the ground [m], without its arcs and bumps.
@@ -151,7 +151,7 @@ Plan plan_scene(const Scene& scene) {
               bytes_per_diagnostics_row * plan.n_steps;
   const double n_moving = plan.n_release * (scene.entrainment ? growth_by_cover : 1);
   const double work = n_moving * seconds_per_dense_step + plan.n_cells * seconds_per_cell_step;
-  const double n_cores = std::max(1u, std::thread::hardware_concurrency());
+  const double n_cores = n_threads();
   plan.seconds = (plan.n_steps * work + plan.n_frames * seconds_per_frame) / (n_cores > 1 ? 0.85 * n_cores : 1);
   return plan;
 }

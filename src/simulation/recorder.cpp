@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "io/commit.hpp"
 #include "io/film.hpp"
+#include "io/frame_files.hpp"
 #include "io/system.hpp"
 #include "simulation/diagnostics.hpp"
 #include "simulation/frame.hpp"
@@ -93,10 +94,10 @@ void Recorder<Dim>::write_diagnostics(const Simulation<Dim>& simulation) {
 
 template <int Dim>
 void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
-  const std::string number = fmt::format("{:06}", n_frames_++);
+  const std::uint64_t number = n_frames_++;
   const fs::path folder = options_.folder;
   const auto write = [&](const std::string& layer, std::vector<SeriesEntry>& series, auto frame) {
-    const std::string name = "frames/" + layer + "_" + number + ".hdf";
+    const std::string name = frame_path(layer, number).string();
     series.push_back({name, simulation.time()});
     writer_.submit([path = folder / name, index = folder / (layer + ".hdf.series"), series, frame = std::move(frame)] {
       commit(path, frame.file());
@@ -107,7 +108,7 @@ void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
   if (output_.smoke && simulation.suspension()) write("smoke", smoke_series_, smoke_frame(simulation));
   if constexpr (Dim == 2) {
     if (output_.preview)
-      writer_.submit([path = folder / "preview" / (number + ".png"), frame = preview_frame(simulation)] {
+      writer_.submit([path = folder / "preview" / fmt::format("{:06}.png", number), frame = preview_frame(simulation)] {
         commit(path, frame.png());
       });
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The run folder: what a simulation leaves on disk (README.md, What a run writes). Writing goes on beside the
+/// The run folder: what a simulation leaves on disk (docs/results.md). Writing goes on beside the
 /// simulation; a frame stands on disk whole or not at all.
 
 #include <atomic>

@@ -43,7 +43,7 @@ template <int Dim>
 Box<Dim> box_around(const ReleaseSection& release, const Walls<Dim>& walls) {
   if (release.shape == "box") return box_of<Dim>(release.lower, release.upper);
   if (release.shape == "ball") {
-    const Vec<Dim> center = box_of<Dim>(release.center, release.center).lower;
+    const Vec<Dim> center = vector_or<Dim>(release.center);
     return {center - Vec<Dim>::Constant(release.radius), center + Vec<Dim>::Constant(release.radius)};
   }
   Box<Dim> box = walls.domain;
@@ -128,7 +128,7 @@ ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls) {
     SnowKind<Dim> kind;
     kind.spacing = d;
     kind.density = release.density > 0 ? release.density : scene.dense_flow->density;
-    kind.velocity = box_of<Dim>(release.velocity, release.velocity).lower;
+    kind.velocity = vector_or<Dim>(release.velocity);
     const Particles<Dim> lattice = release.shape == "slab"
                                        ? sample_slab<Dim>(*walls.terrain, slab_of(scene, release, walls), kind)
                                        : sample_box<Dim>(box_around<Dim>(release, walls), kind);
@@ -164,10 +164,11 @@ Field<Dim> initial_smoke(const Scene& scene, const Suspension<Dim>& suspension) 
   Field<Dim> smoke(grid.cells);
   for (const SmokeSection& shape : scene.smoke) {
     const bool ball = shape.shape == "ball";
-    const Box<Dim> box = ball ? box_of<Dim>(shape.center, shape.center) : box_of<Dim>(shape.lower, shape.upper);
+    const Vec<Dim> center = vector_or<Dim>(shape.center);
+    const Box<Dim> box = box_of<Dim>(shape.lower, shape.upper);
     for_each_index<Dim>(grid.cells, [&](const Index<Dim>& cell) {
       const double share =
-          ball ? filled_share<Dim>(box.lower, shape.radius, grid, cell) : filled_share<Dim>(box, grid, cell);
+          ball ? filled_share<Dim>(center, shape.radius, grid, cell) : filled_share<Dim>(box, grid, cell);
       if (share > 0) smoke[cell] = share * shape.density * suspension.ground().volume()[cell];
     });
   }

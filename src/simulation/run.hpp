@@ -25,7 +25,6 @@ struct Progress {
 
 struct RunOptions {
   std::filesystem::path folder;
-  bool quiet = false;
   int threads = 0;                                   ///< 0: all of the machine's
   std::string scene_file;                            ///< as the user named it, for run.json
   std::function<void(const Progress&)> on_progress;  ///< after every step; may be empty

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "simulation/registry.hpp"
+#include "simulation/scene_vectors.hpp"
 #include "simulation/units.hpp"
 
 namespace spindrift {
@@ -139,7 +140,7 @@ class Checker {
   void lid(const SuspensionSection& suspension) {
     if (!report_.good({"suspension.lid", "suspension.wall", "domain.top"})) return;
     const std::vector<double>& lid = suspension.lid;
-    if (std::all_of(lid.begin(), lid.end(), [](double x) { return x == 0; })) return;
+    if (is_zero(lid)) return;
     if (lid.back() != 0)
       add("suspension.lid",
           fmt::format("got {} along z, expected 0: a lid moves along itself", number_text(lid.back())));

@@ -70,9 +70,7 @@ upper = ["72 m", "9 m"]
 /// In Markdown code, angles in degrees; empty: what has to be said, or follows from the dimension.
 std::string default_text(const Key& key, Scene& scene) {
   const Slot field = key.field(scene);
-  if (!has_value(field)) return "";
-  if (key.unit == "rad") return fmt::format("`\"{}\"`", degrees_text(*std::get<double*>(field)));
-  return fmt::format("`{}`", value_text(field));
+  return has_value(field) ? fmt::format("`{}`", readable_text(key, field)) : "";
 }
 
 struct Grouping {

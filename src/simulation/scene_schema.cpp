@@ -119,10 +119,8 @@ std::string described_defaults(std::string_view preset) {
       const Slot field = key.field(scene);
       std::string words;
       for (const std::string_view word : key.words) words += fmt::format("{}\"{}\"", words.empty() ? "" : " | ", word);
-      const std::string value =
-          key.unit == "rad" ? '"' + degrees_text(*std::get<double*>(field)) + '"' : value_text(field);
-      const std::string line =
-          fmt::format("{}{} = {}", whole && applies(key, scene, 0) && has_value(field) ? "" : "# ", key.name(), value);
+      const std::string line = fmt::format("{}{} = {}", whole && applies(key, scene, 0) && has_value(field) ? "" : "# ",
+                                           key.name(), readable_text(key, field));
       text += fmt::format("{:<40} # {}{}\n", line, description(key), words.empty() ? "" : ": " + words);
     }
   }

@@ -8,15 +8,12 @@
 
 #include "simulation/registry.hpp"
 #include "simulation/release.hpp"
+#include "simulation/scene_vectors.hpp"
 #include "simulation/setup.hpp"
 #include "simulation/units.hpp"
 
 namespace spindrift {
 namespace {
-
-bool is_zero(const std::vector<double>& v) {
-  return std::all_of(v.begin(), v.end(), [](double x) { return x == 0; });
-}
 
 class Warner {
  public:
@@ -126,18 +123,13 @@ class Warner {
     const SuspensionSection& air = *scene_.suspension;
     if (air.wall == "no_slip" && air.viscosity == 0)
       add("suspension.wall", "has no effect on air without viscosity: suspension.viscosity is 0");
-    if (is_zero(air.wind)) return;
-    const std::string* sides[3][2] = {{&domain.left, &domain.right}, {&domain.front, &domain.back}, {}};
-    sides[scene_.scene.dim - 1][0] = &domain.bottom, sides[scene_.scene.dim - 1][1] = &domain.top;
-    for (std::size_t k = 0; k < air.wind.size(); ++k)
-      if (air.wind[k] != 0 && *sides[k][air.wind[k] > 0 ? 0 : 1] == "closed")
-        add("suspension.wind", "comes through a closed side of the domain: it will die down");
   }
 
   template <int Dim>
   void places() {
     const Walls<Dim> walls = make_walls<Dim>(scene_);
     if (walls.terrain) ground(walls);
+    if (scene_.suspension) wind(walls);
     if (!scene_.dense_flow) return;
     const std::vector<ReleaseCount> counts = released_snow<Dim>(scene_, walls).releases;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -154,6 +146,14 @@ class Warner {
             fmt::format("{} of its {} particles lie outside the domain and will be gone at once", count.outside, all));
       if (all == 0) add(name, "too small for a single particle: no snow is released");
     }
+  }
+
+  template <int Dim>
+  void wind(const Walls<Dim>& walls) {
+    const Vec<Dim> wind = vector_or<Dim>(scene_.suspension->wind);
+    for (int axis = 0; axis < Dim; ++axis)
+      if (wind[axis] != 0 && walls.sides[static_cast<std::size_t>(axis)][wind[axis] > 0 ? 0 : 1] == Side::closed)
+        add("suspension.wind", "comes through a closed side of the domain: it will die down");
   }
 
   template <int Dim>

@@ -82,6 +82,10 @@ std::string value_text(Slot field) {
   return std::visit(TomlText{}, field);
 }
 
+std::string readable_text(const Key& key, Slot field) {
+  return key.unit == "rad" ? '"' + degrees_text(*std::get<double*>(field)) + '"' : value_text(field);
+}
+
 std::string write_scene(const Scene& scene, const Origins* origins) {
   Scene copy = scene;
   std::string text = "schema_version = 1\n";

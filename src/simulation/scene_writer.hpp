@@ -20,6 +20,8 @@ std::string canonical_scene(const Scene& scene);
 
 /// A value as TOML, in SI.
 std::string value_text(Slot field);
+/// The same as people write it: angles as "38 deg".
+std::string readable_text(const Key& key, Slot field);
 /// "38 deg" of an angle in radians, to six digits after the point.
 std::string degrees_text(double angle);
 /// Whether there is anything to say: an empty list or name is no value.

@@ -142,13 +142,13 @@ std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<D
   options.reflection = section.scheme == "reflection";
   options.viscosity = section.viscosity;
   options.no_slip = section.wall == "no_slip";
-  options.lid = vector_or<Dim>(section.lid, Vec<Dim>::Zero());
+  options.lid = vector_or<Dim>(section.lid);
   options.diffusivity = section.diffusivity;
   options.settling_speed = section.settling_speed;
   if (section.confinement) options.confinement = section.confinement->strength;
   options.pressure = {section.tolerance, section.max_iterations};
   options.moving_core = section.moving_core;
-  options.wind = vector_or<Dim>(section.wind, Vec<Dim>::Zero());
+  options.wind = vector_or<Dim>(section.wind);
   std::optional<Suspension<Dim>> air(std::in_place, grid, walls.sides, options);
   if (!options.wind.isZero()) air->set_velocity(wind_in_box<Dim>(grid, walls, options.wind));
   return air;

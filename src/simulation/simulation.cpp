@@ -14,7 +14,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double longest_step = 0.01;   // [s]
 constexpr double shortest_step = 1e-7;  // [s]: a limit below ends the run, it is never clamped
 
 template <int Dim>

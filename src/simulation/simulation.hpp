@@ -14,6 +14,8 @@
 
 namespace spindrift {
 
+constexpr double longest_step = 0.01;  ///< [s], whatever else allows more
+
 template <int Dim>
 class Simulation {
  public:

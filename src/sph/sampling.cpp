@@ -226,11 +226,12 @@ Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, co
   std::vector<Vec<Dim>> positions;
   std::size_t n = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
+    if (kept[i] == 0) continue;
     const Vec<Dim> x = terrain.position(places[i].template head<Dim - 1>(), places[i][Dim - 1]);
     const bool blocked = std::any_of(obstacles.begin(), obstacles.end(), [&](const Box<Dim>& obstacle) {
       return surface_of<Dim>(obstacle, x).distance < 0.5 * d;
     });
-    if (kept[i] == 0 || blocked) continue;
+    if (blocked) continue;
     places[n++] = places[i];
     positions.push_back(x);
   }

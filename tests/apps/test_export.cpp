@@ -60,7 +60,8 @@ TEST_CASE("what cannot be exported is told with what was expected, and nothing i
       Row{"r --to csv --only smok", "--only \"smok\" is not known, expected one of: particles, smoke; did you mean"},
       Row{"r --to csv --only smoke", "r: has no frames of smoke, expected frames/smoke_000000.hdf; "},
       Row{"r --to csv --every 0", "--every: "}, Row{"r --to csv --frame -1", "--frame: "},
-      Row{"r --to csv --smoke-above much", "--smoke-above: "}, Row{"r --to csv --every 2 --frame 1", "--every excludes"});
+      Row{"r --to csv --smoke-above much", "--smoke-above: "},
+      Row{"r --to csv --every 2 --frame 1", "--every excludes"});
   const Outcome outcome = box.run("export " + row.words);
   CHECK(outcome.code == 2);
   CHECK(outcome.err.find(row.message) == 0);

@@ -35,7 +35,6 @@ nlohmann::json run_json(const fs::path& folder) {
 RunOptions into(const fs::path& folder) {
   RunOptions options;
   options.folder = folder;
-  options.quiet = true;
   return options;
 }
 
