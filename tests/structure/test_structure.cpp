@@ -25,6 +25,7 @@ const std::map<std::string, std::set<std::string>> allowed{
     {"coupling", {"core", "terrain", "sph", "grid"}},
     {"entrainment", {"core", "terrain", "sph"}},
     {"simulation", {"core", "terrain", "io", "sph", "grid", "coupling", "entrainment"}},
+    {"verification", {"core", "terrain", "io", "sph", "grid", "coupling", "entrainment", "simulation"}},
 };
 
 /// The one place of each package, as the beginning of a path under the root.

@@ -1,0 +1,25 @@
+# Builds the scenes of configs/ into a library, so that the program can verify itself wherever it is.
+function(add_scene_texts target)
+  file(GLOB scenes CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/configs/*.toml
+       ${PROJECT_SOURCE_DIR}/configs/verification/*.toml)
+  set(entries "")
+  foreach(scene IN LISTS scenes)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/configs/${scene})
+    file(READ ${PROJECT_SOURCE_DIR}/configs/${scene} text)
+    string(APPEND entries "    {\"${scene}\", R\"toml(${text})toml\"},\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/scene_texts.cpp @ONLY CONTENT
+"#include \"verification/scene_texts.hpp\"
+
+namespace spindrift {
+
+std::span<const SceneText> scene_texts() {
+  static constexpr SceneText texts[] = {
+@entries@  };
+  return texts;
+}
+
+}  // namespace spindrift
+")
+  target_sources(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated/scene_texts.cpp)
+endfunction()

@@ -1,0 +1,42 @@
+#include "verification/case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spindrift {
+
+void ErrorNorms::add(double value, double reference, double weight) {
+  difference_squared_ += weight * (value - reference) * (value - reference);
+  reference_squared_ += weight * reference * reference;
+  // A maximum that forgets no NaN.
+  const double difference = std::abs(value - reference);
+  if (!(difference <= difference_max_)) difference_max_ = difference;
+  reference_max_ = std::max(reference_max_, std::abs(reference));
+}
+
+double ErrorNorms::l2() const {
+  return std::sqrt(reference_squared_ > 0 ? difference_squared_ / reference_squared_ : difference_squared_);
+}
+
+double ErrorNorms::max() const {
+  return reference_max_ > 0 ? difference_max_ / reference_max_ : difference_max_;
+}
+
+Series with_settings(const Series& base, std::string factor, std::string label, std::vector<std::string> settings) {
+  Series series{std::move(factor), std::move(label), std::move(settings), base.levels};
+  for (Level& level : series.levels) level.gate = std::numeric_limits<double>::infinity();
+  return series;
+}
+
+Series over_values(const Series& base, std::size_t level, std::string factor, std::string key,
+                   const std::vector<std::string>& values) {
+  const Level& at = base.levels.at(level);
+  Series series{std::move(factor), fmt::format("{}, {}", key, at.label), base.settings, {}};
+  series.settings.insert(series.settings.end(), at.settings.begin(), at.settings.end());
+  for (const std::string& value : values) series.levels.push_back({value, {fmt::format("{}={}", key, value)}});
+  return series;
+}
+
+}  // namespace spindrift

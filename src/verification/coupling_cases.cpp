@@ -1,0 +1,9 @@
+#include "verification/case_groups.hpp"
+
+namespace spindrift {
+
+std::vector<Case> coupling_cases() {
+  return {};
+}
+
+}  // namespace spindrift

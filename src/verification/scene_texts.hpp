@@ -1,0 +1,16 @@
+#pragma once
+/// The scenes of configs/, built into the program (cmake/SceneTexts.cmake).
+
+#include <span>
+#include <string_view>
+
+namespace spindrift {
+
+struct SceneText {
+  std::string_view file;  ///< under configs/
+  std::string_view text;
+};
+
+std::span<const SceneText> scene_texts();
+
+}  // namespace spindrift
