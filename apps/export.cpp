@@ -67,14 +67,6 @@ Error nothing_chosen(const ExportArguments& arguments) {
                                            arguments.frame.value_or(0), kind, first, last)};
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error))
-    throw Error(ExitCode::io_failed, fmt::format("cannot make the folder {}: {}", folder.string(),
-                                                 error ? error.message() : "there is a file of this name"));
-}
-
 /// Tells on a terminal how far it is; elsewhere nothing.
 class Counter {
  public:

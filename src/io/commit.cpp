@@ -28,6 +28,14 @@ void commit(const fs::path& path, std::string_view text) {
   commit(path, std::as_bytes(std::span(text)));
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
+    throw Error(ExitCode::io_failed, "cannot make the folder " + folder.string() + ": " +
+                                         (error ? error.message() : "there is a file of this name"));
+}
+
 std::size_t remove_stale_temporaries(const fs::path& folder) {
   std::size_t n = 0;
   try {

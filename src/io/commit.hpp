@@ -15,6 +15,9 @@ namespace spindrift {
 void commit(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void commit(const std::filesystem::path& path, std::string_view text);
 
+/// Makes a folder and those above it, where they are missing.   Throws Error(io_failed).
+void make_folder(const std::filesystem::path& folder);
+
 /// Removes the temporaries that a killed run left in `folder`; returns how many. A folder that does not exist has none.
 /// Throws Error(io_failed).   Pre: no other process writes to the folder.
 std::size_t remove_stale_temporaries(const std::filesystem::path& folder);

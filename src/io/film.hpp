@@ -7,9 +7,6 @@
 
 namespace spindrift {
 
-/// The first executable file of this name on PATH, absolute; nothing if there is none.
-std::optional<std::filesystem::path> program_on_path(const std::string& name);
-
 struct Film {
   std::filesystem::path folder;               ///< where all names below stand
   std::string pictures = "preview/%06d.png";  ///< numbered from 0, all of one size

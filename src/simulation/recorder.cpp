@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The run folder with its parts, cleared of an earlier run's results. Nothing else in it is touched.
-void make_folder(const RunOptions& options, const OutputSection& output) {
+void prepare_folder(const RunOptions& options, const OutputSection& output) {
   const auto try_io = [&](auto&& f) {
     try {
       f();
@@ -53,7 +53,7 @@ std::size_t open_cells(const Suspension<Dim>& suspension) {
 template <int Dim>
 Recorder<Dim>::Recorder(const Scene& scene, const RunOptions& options)
     : options_(options), output_(scene.output), start_(std::chrono::steady_clock::now()) {
-  make_folder(options, scene.output);
+  prepare_folder(options, scene.output);
   commit(options_.folder / "scene.toml", write_scene(scene));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The scenes of configs/, built into the program (cmake/SceneTexts.cmake).
+/// Files of the project that are built into the program (cmake/SceneTexts.cmake).
 
 #include <span>
 #include <string_view>
@@ -12,5 +12,8 @@ struct SceneText {
 };
 
 std::span<const SceneText> scene_texts();
+
+/// tools/plot_verification.py
+std::string_view plot_script();
 
 }  // namespace spindrift
