@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "commands.hpp"
@@ -8,6 +9,7 @@
 #include "plain_text.hpp"
 #include "simulation/spelling.hpp"
 #include "verification/cases.hpp"
+#include "verification/refinement.hpp"
 #include "verification/study_page.hpp"
 
 namespace spindrift {
@@ -77,9 +79,37 @@ ExitCode verify_cases(const VerifyArguments& arguments) {
   return ExitCode::done;
 }
 
+ExitCode refine_scene(const VerifyArguments& arguments) {
+  if (arguments.what.size() > 1)
+    throw Error(ExitCode::bad_input,
+                fmt::format("{} is a scene, and a scene is refined alone", arguments.what.front()));
+  std::filesystem::path folder = arguments.folder;
+  Plan plan;
+  const Scene scene = read_and_judge({arguments.what.front(), arguments.settings}, folder, plan, say);
+  double seconds = 0;
+  const std::vector<RefinedRun> runs = planned_runs(scene, arguments.quick);
+  for (const RefinedRun& run : runs) seconds += plan_scene(scaled(scene, run.factor, run.scale)).seconds;
+  say(fmt::format("{} runs, about {}, up to three times more or less", runs.size(), duration_text(seconds)));
+  make_folder(folder);
+  const Refinement refinement = refine(scene, arguments.quick, [](const RefinedRun& run) {
+    if (!run.failure.empty())
+      return say(fmt::format("{:<12} x {:<6.3g} failed: {}", run.factor, run.scale, run.failure));
+    std::string line = fmt::format("{:<12} x {:<6.3g} {:>8.2f} s", run.factor, run.scale, run.cost.seconds);
+    for (const Reading& reading : run.readings) line += fmt::format("  {} {:.5g}", reading.name, reading.value);
+    say(line);
+  });
+  write_refinement(folder, refinement, say);
+  fmt::print("{}\n", (folder / "refinement.md").string());
+  return ExitCode::done;
+}
+
 ExitCode verify(const VerifyArguments& arguments) {
   if (arguments.list) return list_cases();
   const ThreadLimit threads(arguments.threads);
+  const bool scene = std::ranges::any_of(arguments.what, [](const std::string& w) { return w.ends_with(".toml"); });
+  if (scene) return refine_scene(arguments);
+  if (!arguments.settings.empty())
+    throw Error(ExitCode::bad_input, "--set changes a scene of your own; the cases bring their settings");
   return verify_cases(arguments);
 }
 
