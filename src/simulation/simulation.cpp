@@ -54,6 +54,9 @@ Simulation<Dim>::Simulation(const Scene& scene)
   if (suspension_ && dense_)
     n_interior_ = interior_number_density<Dim>(dense_->options().spacing(), dense_->options().support_radius);
   n_dense_initial_ = dense_ ? dense_->particles.size() : 0;
+  if (dense_)
+    for (const Vec<Dim>& v : dense_->particles.velocity) first_speed_ = std::max(first_speed_, v.norm());
+  if (suspension_) first_speed_ = std::max(first_speed_, suspension_->max_speed());
   masses_.initial = dense_mass() + cover_mass() + smoke_mass();
 }
 
@@ -87,7 +90,9 @@ void Simulation<Dim>::choose_time_step() {
   }
   if (suspension_) {
     const double speed = suspension_->max_speed();
-    if (speed > 0) limit(scene_.suspension->cfl * suspension_->grid().dx / speed, "air");
+    const double way = scene_.suspension->cfl * suspension_->grid().dx, g = gravity_.norm();
+    if (speed > 0) limit(way / speed, "air");
+    if (g > 0) limit(std::sqrt(way / g), "air");  // for a start from rest
   }
   dt_ = report_.dt;
   if (!(dt_ >= shortest_step))
@@ -223,7 +228,7 @@ void Simulation<Dim>::remove_what_left() {
 template <int Dim>
 void Simulation<Dim>::check_state() const {
   const StepStamp stamp{n_steps_, time_, dt_};
-  const double fastest = runaway_speed(walls_.domain.size().norm(), gravity_.norm());
+  const double fastest = runaway_speed(walls_.domain.size().norm(), gravity_.norm(), first_speed_);
   if (dense_) check_particles<Dim>(dense_->particles, fastest, stamp);
   if (suspension_) check_suspension<Dim>(*suspension_, fastest, stamp);
 }

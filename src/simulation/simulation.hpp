@@ -84,7 +84,8 @@ class Simulation {
   OverlapRegion<Dim> region_;
   Exchange<Dim> exchange_;
   CoreCells<Dim> core_;
-  double n_interior_ = 0;  ///< number density inside the dense flow
+  double n_interior_ = 0;   ///< number density inside the dense flow
+  double first_speed_ = 0;  ///< largest of snow and air at the start [m s^-1]
 
   std::optional<Entrainment<Dim>> entrainment_;
 

@@ -36,8 +36,8 @@ std::string fault(const Particles<Dim>& p, std::size_t i, double fastest) {
 
 }  // namespace
 
-double runaway_speed(double length, double gravity) {
-  return std::max(300.0, 10 * std::sqrt(2 * gravity * length));
+double runaway_speed(double length, double gravity, double first_speed) {
+  return std::max({300.0, 10 * first_speed, 10 * std::sqrt(2 * gravity * length)});
 }
 
 template <int Dim>
