@@ -67,6 +67,11 @@ TEST_CASE("scenes that hardly mean what they say get a warning with its place an
        "a.toml:6:17: warning: suspension.initial_speed: has no effect, it belongs to suspension.initial_flow = "
        "\"vortices\" or \"rotation\" or \"potential\""},
       {head + "gravity = [0, 9.81]\n[suspension]\n", "a.toml:5:11: warning: domain.gravity: points upwards"},
+      {head + "[suspension]\nscheme = \"reflection\"\ncfl = 20\n",
+       "a.toml:7:7: warning: suspension.cfl: the reflection scheme can gain energy in steps of more than ten cells"},
+      {good + "[suspension]\ncell_size = 1\nair_density = 301\n",
+       "a.toml:9:2: warning: dense_flow.density: snow lighter than the air with its smoke, 301 kg/m^3: the air throws "
+       "it about, and the run may end as unstable"},
       {good + "[suspension]\ncell_size = 1\n[coupling]\n",
        "a.toml:14:2: warning: coupling: nothing is exchanged: it has none of drag, lift, generation and adhesion"},
       {good + "[suspension]\ncell_size = 1\n[coupling.adhesion]\n",
