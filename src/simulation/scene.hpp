@@ -67,11 +67,12 @@ struct ReleaseSection {
 
 /// Smoke in the air at the start.
 struct SmokeSection {
-  std::string shape = "box";         ///< "box" | "ball"
-  double density = 3;                ///< rho_smoke [kg m^-3]
-  std::vector<double> lower, upper;  ///< corners of the box [m]
-  std::vector<double> center;        ///< of the ball [m]
-  double radius = 1;                 ///< of the ball [m]
+  std::string shape = "box";                  ///< "box" | "ball" | "polygon"
+  double density = 3;                         ///< rho_smoke [kg m^-3]
+  std::vector<double> lower, upper;           ///< corners of the box [m]
+  std::vector<double> center;                 ///< of the ball [m]
+  double radius = 1;                          ///< of the ball [m]
+  std::vector<std::array<double, 2>> points;  ///< corners (x, z) of the polygon [m]
 };
 
 struct DenseFlowSection {
