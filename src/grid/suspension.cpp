@@ -80,8 +80,6 @@ void Suspension<Dim>::restore(const SuspensionState<Dim>& state) {
   momentum_ = state.momentum;
   disturbed_ = state.disturbed;
   kinds_are_old_ = state.kinds_are_old;
-  // Advection hands its buffers on as the velocity: what a failed step left deep in the ground would come back.
-  advection_.clear_deep(ground_, 0, grid_.cells[0]);
   update_active(0, grid_.cells[0]);
 }
 
