@@ -17,13 +17,13 @@ struct StepStamp {
 /// push: ten times the larger of first speed and free fall, at least 300 m/s.
 double runaway_speed(double length, double gravity, double first_speed);
 
-/// Throws Error(unstable) naming field, particle, place, step, time and dt: a position or velocity that is not finite,
-/// a mass or volume that is not positive, a speed above `fastest` [m s^-1]. One pass over the particles.
+/// Throws Error(unstable) naming field, particle, place, step, time and dt: a value that is not finite, a mass or
+/// volume that is not positive, a speed above `fastest` [m s^-1]. One pass over the particles.
 template <int Dim>
 void check_particles(const Particles<Dim>& particles, double fastest, const StepStamp& stamp);
 
-/// The same for the air's velocity and the smoke: the largest speed is known from the step, the places are looked for
-/// only where something is wrong.
+/// The same for the air's velocity and the smoke, which must not be negative: the largest speed is known from the step,
+/// the places are looked for only where something is wrong.
 template <int Dim>
 void check_suspension(const Suspension<Dim>& suspension, double fastest, const StepStamp& stamp);
 
