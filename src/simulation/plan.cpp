@@ -81,13 +81,15 @@ double typical_speed(const Scene& scene) {
   double speed = scene.dense_flow ? std::sqrt(2 * norm(scene.domain.gravity) * typical_fall(scene)) : 0;
   for (const ReleaseSection& release : scene.release) speed = std::max(speed, norm(release.velocity));
   if (scene.suspension) speed = std::max({speed, norm(scene.suspension->wind), norm(scene.suspension->lid)});
+  if (scene.suspension && scene.suspension->initial_flow != "wind")
+    speed = std::max(speed, std::abs(scene.suspension->initial_speed));
   return speed;
 }
 
 /// [s]
 double typical_step(const Scene& scene) {
   const double speed = typical_speed(scene);
-  double dt = longest_step;
+  double dt = scene.scene.max_step;
   if (scene.dense_flow) {
     const double spacing = scene.dense_flow->support_radius / 2;
     const double signal = scene.dense_flow->solver == "wcsph" ? 10 * speed : speed;

@@ -17,6 +17,7 @@ struct SceneSection {
   std::uint64_t seed = 1;
   std::string preset = "physical";  ///< "paper" | "physical"
   double end_time = 10;             ///< [s]
+  double max_step = 0.01;           ///< [s], whatever else allows more
 };
 
 /// Lengths are vectors of `dim` numbers; the last axis points up.
@@ -113,8 +114,10 @@ struct SuspensionSection {
   double cfl = 1;                     ///< of the cell size
   double tolerance = 1e-3;            ///< relative residual of the pressure solve
   int max_iterations = 200;
-  bool moving_core = true;   ///< R10; false: the paper's rule
-  std::vector<double> wind;  ///< velocity of the air at the start and beyond open sides [m s^-1], default 0
+  bool moving_core = true;            ///< R10; false: the paper's rule
+  std::vector<double> wind;           ///< velocity of the air at the start and beyond open sides [m s^-1], default 0
+  std::string initial_flow = "wind";  ///< "wind" | "vortices" | "rotation" | "potential": of the air at the start
+  double initial_speed = 1;           ///< U of all but the wind [m s^-1]
   std::optional<ConfinementSection> confinement;
 };
 
