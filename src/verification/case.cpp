@@ -30,6 +30,11 @@ Series with_settings(const Series& base, std::string factor, std::string label, 
   return series;
 }
 
+Series first_levels(Series series, std::size_t n) {
+  series.levels.resize(n);
+  return series;
+}
+
 Series over_values(const Series& base, std::size_t level, std::string factor, std::string key,
                    const std::vector<std::string>& values) {
   const Level& at = base.levels.at(level);
