@@ -127,7 +127,9 @@ void add_snow(Registry& r) {
       .number<&F::friction_xi>("friction_xi", "m/s^2", from(0, 1e9), "Voellmy coefficient; 0: no turbulent part", "R18")
       .words<&F::friction_acts_on>("friction_acts_on", {"column", "base", "none"}, "which particles feel it", "R18")
       .number<&F::compaction_time>("compaction_time", "s", from(0, 1e6),
-                                   "in which entrained snow takes on the flow's density; 0: off", "R20");
+                                   "in which entrained snow takes on the flow's density; 0: off", "R20")
+      .words<&F::neighbour_search>("neighbour_search", {"cell_list", "kd_tree"},
+                                   "how neighbours are looked for; the result is the same to the bit, the tree slower");
 
   using C = CoverSection;
   Rows<&Scene::cover>(r, "cover", "the resting snow cover, as particles")
