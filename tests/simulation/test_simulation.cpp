@@ -16,6 +16,9 @@ constexpr std::string_view avalanche() {
   return Dim == 2 ? small_avalanche : small_avalanche_3d;
 }
 
+const std::vector<std::string> frozen_rotation{"suspension.frozen=true", "suspension.initial_flow=rotation",
+                                               "suspension.initial_speed=4", "suspension.diffusivity=0.1"};
+
 template <int Dim>
 Simulation<Dim> run(const Scene& scene) {
   Simulation<Dim> simulation(scene);
@@ -27,7 +30,9 @@ Simulation<Dim> run(const Scene& scene) {
 
 TEMPLATE_TEST_CASE_SIG("Mass is constant and every exchange cancels, step by step", "[simulation]", ((int Dim), Dim), 2,
                        3) {
-  Simulation<Dim> simulation(scene_of(avalanche<Dim>()));
+  const bool frozen = GENERATE(false, true);
+  Simulation<Dim> simulation(
+      scene_of(avalanche<Dim>(), frozen ? frozen_rotation : std::vector<std::string>{"suspension.frozen=false"}));
   while (!simulation.done()) {
     simulation.step();
     const StepReport<Dim>& r = simulation.report();
@@ -44,8 +49,9 @@ TEMPLATE_TEST_CASE_SIG("Mass is constant and every exchange cancels, step by ste
 
 TEMPLATE_TEST_CASE_SIG("The ledger accounts for all momentum of the snow and of the air", "[simulation]",
                        ((int Dim), Dim), 2, 3) {
-  const auto scheme = GENERATE(as<std::string>{}, "maccormack", "reflection");
-  Simulation<Dim> simulation(scene_of(avalanche<Dim>(), {"suspension.scheme=" + scheme}));
+  const auto settings = GENERATE(std::vector<std::string>{"suspension.scheme=maccormack"},
+                                 std::vector<std::string>{"suspension.scheme=reflection"}, frozen_rotation);
+  Simulation<Dim> simulation(scene_of(avalanche<Dim>(), settings));
   const auto snow = [&] {
     Vec<Dim> sum = Vec<Dim>::Zero();
     const Particles<Dim>& p = simulation.dense()->particles;
@@ -79,6 +85,19 @@ TEMPLATE_TEST_CASE_SIG("The same bits with any number of threads", "[simulation]
   CHECK(digests[0] == digests[1]);
   CHECK(digests[0] == digests[2]);
   CHECK(digests[0] != state_digest(run<Dim>(scene_of(avalanche<Dim>(), {"scene.end_time=0.2", "scene.seed=2"}))));
+}
+
+TEMPLATE_TEST_CASE_SIG("The same bits with a k-d tree's neighbours", "[simulation]", ((int Dim), Dim), 2, 3) {
+  std::vector<std::string> digests;
+  for (const char* search : {"cell_list", "kd_tree"}) {
+    Simulation<Dim> simulation(scene_of(avalanche<Dim>(), {"dense_flow.neighbour_search=" + std::string(search),
+                                                           "dense_flow.viscosity=5", "dense_flow.wall=no_slip"}));
+    for (int i = 0; i < 40; ++i) simulation.step();
+    CHECK(simulation.dense()->neighbours().n_pairs() > 1000);
+    CHECK(simulation.masses().n_entrained > 0);
+    digests.push_back(state_digest(simulation));
+  }
+  CHECK(digests[0] == digests[1]);
 }
 
 TEST_CASE("Without generation no smoke, without entrainment no new snow, without either layer nothing of it",
