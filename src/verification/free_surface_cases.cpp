@@ -277,7 +277,7 @@ std::vector<Case> free_surface_cases() {
                         {"a/d = 40", {"dense_flow.support_radius=0.05"}, 0.025, 0.1},
                         {"a/d = 80", {"dense_flow.support_radius=0.025"}, 0.0125, 0.1}}};
   dam_break.series = {
-      refined, with_settings(refined, "solver", "wcsph", {"dense_flow.solver=wcsph"}),
+      refined, first_levels(with_settings(refined, "solver", "wcsph", {"dense_flow.solver=wcsph"}), 2),
       first_levels(with_settings(refined, "neighbour search", "kd_tree", {"dense_flow.neighbour_search=kd_tree"}), 2),
       over_values(refined, 1, "tolerance", "dense_flow.density_tolerance", {"5e-3", "5e-4", "5e-5", "5e-6"}),
       over_values(refined, 1, "time step", "dense_flow.cfl", {"0.8", "0.4", "0.2", "0.1"})};
