@@ -49,6 +49,18 @@ TEST_CASE("A result knows its order, its verdict and its cheapest run", "[study]
   CHECK(!result.passed());
 }
 
+TEST_CASE("Further series keep the settings of the one that they come from", "[study]") {
+  const Series base{"resolution", "a", {"x=1"}, {{"1", {"d=1"}, 1, 0.1}, {"2", {"d=2"}, 0.5, 0.1}}};
+  const Series other = with_settings(base, "solver", "b", {"y=2"});
+  CHECK(other.settings == std::vector<std::string>{"x=1", "y=2"});
+  CHECK(other.levels[1].settings == base.levels[1].settings);
+  CHECK(other.levels[1].gate > 1e300);
+  CHECK(first_levels(other, 1).levels.size() == 1);
+  const Series values = over_values(base, 1, "cfl", "c", {"3", "4"});
+  CHECK(values.settings == std::vector<std::string>{"x=1", "d=2"});
+  CHECK(values.levels[1].settings == std::vector<std::string>{"c=4"});
+}
+
 TEST_CASE("A curve goes on beyond its ends", "[study]") {
   const Curve curve{{0, 1}, {1, 3}, {3, 4}};
   CHECK(interpolated(curve, 0.5) == Approx(2));
