@@ -87,7 +87,7 @@ double typical_speed(const Scene& scene) {
 /// [s]
 double typical_step(const Scene& scene) {
   const double speed = typical_speed(scene);
-  double dt = longest_step;
+  double dt = scene.scene.max_step;
   if (scene.dense_flow) {
     const double spacing = scene.dense_flow->support_radius / 2;
     const double signal = scene.dense_flow->solver == "wcsph" ? 10 * speed : speed;

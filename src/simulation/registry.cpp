@@ -35,7 +35,8 @@ void add_setting(Registry& r) {
       .number<&S::seed>("seed", "", from(0, 9223372036854775807.0), "of all random numbers")
       .words<&S::preset>("preset", {"physical", "paper"},
                          "which defaults hold: measured snow, or the paper's constants")
-      .number<&S::end_time>("end_time", "s", above(0, 1e6), "simulated time at which the run ends");
+      .number<&S::end_time>("end_time", "s", above(0, 1e6), "simulated time at which the run ends")
+      .number<&S::max_step>("max_step", "s", above(0, 10), "longest time step, whatever else allows more");
 
   using D = DomainSection;
   const std::vector<std::string_view> side = {"open", "closed"};

@@ -17,6 +17,7 @@ struct SceneSection {
   std::uint64_t seed = 1;
   std::string preset = "physical";  ///< "paper" | "physical"
   double end_time = 10;             ///< [s]
+  double max_step = 0.01;           ///< [s], whatever else allows more
 };
 
 /// Lengths are vectors of `dim` numbers; the last axis points up.

@@ -80,7 +80,7 @@ void Simulation<Dim>::choose_time_step() {
   const auto limit = [&](double dt, std::string_view name) {
     if (dt < report_.dt) report_.dt = dt, report_.limiter = name;
   };
-  report_.dt = longest_step, report_.limiter = "longest step";
+  report_.dt = scene_.scene.max_step, report_.limiter = "longest step";
   if (dense_ && !dense_->particles.empty()) {
     limit(dense_->time_step_limit(scene_.dense_flow->cfl, gravity_.norm()),
           dense_->options().solver == DenseSolver::wcsph ? "particles or sound" : "particles");

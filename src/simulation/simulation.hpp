@@ -14,8 +14,6 @@
 
 namespace spindrift {
 
-constexpr double longest_step = 0.01;  ///< [s], whatever else allows more
-
 template <int Dim>
 class Simulation {
  public:

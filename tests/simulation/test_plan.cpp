@@ -75,6 +75,17 @@ TEST_CASE("the cover of a whole slope follows the ground", "[plan]") {
   CHECK(plan_scene(scene).n_cover == Approx(120).margin(1));
 }
 
+TEST_CASE("the longest step counts the steps of air at rest", "[plan]") {
+  Scene scene = scene_with_everything(2);
+  scene.dense_flow.reset();
+  scene.cover.reset();
+  scene.release.clear();
+  scene.suspension->wind.assign(2, 0);
+  scene.scene.end_time = 3;
+  scene.scene.max_step = 0.5;
+  CHECK(plan_scene(scene).n_steps == 6);
+}
+
 TEST_CASE("what would not fit is refused at once, with exit code 6", "[plan]") {
   Scene scene = scene_with_everything(3);
   const auto absurd = GENERATE(range(0, 6));

@@ -24,8 +24,8 @@ struct FirstStep {
   std::string limiter;
 };
 
-FirstStep first_step(const std::string& sections) {
-  Simulation<2> simulation(scene_of(box_with(sections)));
+FirstStep first_step(const std::string& sections, const std::vector<std::string>& settings = {}) {
+  Simulation<2> simulation(scene_of(box_with(sections), settings));
   simulation.step();
   CHECK(simulation.time() == simulation.report().dt);
   return {simulation.report().dt, std::string(simulation.report().limiter)};
@@ -33,10 +33,16 @@ FirstStep first_step(const std::string& sections) {
 
 }  // namespace
 
-TEST_CASE("The step: 10 ms, particles, air or sound, by hand", "[simulation]") {
+TEST_CASE("The step: 10 ms or what the scene says, particles, air or sound, by hand", "[simulation]") {
   SECTION("nothing moves") {
     const FirstStep step = first_step(air);
     CHECK(step.dt == 0.01);
+    CHECK(step.limiter == "longest step");
+  }
+  SECTION("nothing moves, and the scene allows more, or less") {
+    const auto longest = GENERATE(10.0, 0.25, 1e-4);
+    const FirstStep step = first_step(air, {"scene.max_step=" + std::to_string(longest)});
+    CHECK(step.dt == longest);
     CHECK(step.limiter == "longest step");
   }
   SECTION("snow from rest: 0.4 sqrt(0.001 m / 10 m/s2)") {
