@@ -81,6 +81,8 @@ double typical_speed(const Scene& scene) {
   double speed = scene.dense_flow ? std::sqrt(2 * norm(scene.domain.gravity) * typical_fall(scene)) : 0;
   for (const ReleaseSection& release : scene.release) speed = std::max(speed, norm(release.velocity));
   if (scene.suspension) speed = std::max({speed, norm(scene.suspension->wind), norm(scene.suspension->lid)});
+  if (scene.suspension && scene.suspension->initial_flow != "wind")
+    speed = std::max(speed, std::abs(scene.suspension->initial_speed));
   return speed;
 }
 

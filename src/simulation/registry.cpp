@@ -157,7 +157,16 @@ void add_smoke(Registry& r) {
       .number<&U::cfl>("cfl", "", above(0, 100), "largest way of the air in a step, in cells")
       .number<&U::tolerance>("tolerance", "", between(0, 1), "relative residual of the pressure solve")
       .number<&U::max_iterations>("max_iterations", "", iterations, "of the pressure solve")
-      .number<&U::wind>("wind", "m/s", speed, "velocity of the air at the start and beyond open sides; default 0")
+      .number<&U::wind>("wind", "m/s", speed, "velocity of the air beyond open sides, and at the start; default 0")
+      .words<&U::initial_flow>(
+          "initial_flow", {"wind", "vortices", "rotation", "potential"},
+          "of the air at the start: the wind; a Taylor-Green vortex that fills the box; "
+          "solid-body rotation about its middle; a potential flow, which a projection brings to rest")
+      .with("initial_flow", {"vortices", "rotation", "potential"})
+      .number<&U::initial_speed>("initial_speed", "m/s", speed,
+                                 "U: largest u of the vortex, speed of the rotation half the box's breadth from its "
+                                 "middle (positive: x towards z), largest component of the potential flow")
+      .always()
       .plain<&U::moving_core>("moving_core", "the dense core pushes the air aside; false: the paper's rule", "R10");
   Rows<&Scene::suspension, &U::confinement>(r, "suspension.confinement", "vorticity confinement: keeps swirls alive")
       .number<&ConfinementSection::strength>("strength", "", from(0, 100), "epsilon", "Eq. (8)");

@@ -114,8 +114,10 @@ struct SuspensionSection {
   double cfl = 1;                     ///< of the cell size
   double tolerance = 1e-3;            ///< relative residual of the pressure solve
   int max_iterations = 200;
-  bool moving_core = true;   ///< R10; false: the paper's rule
-  std::vector<double> wind;  ///< velocity of the air at the start and beyond open sides [m s^-1], default 0
+  bool moving_core = true;            ///< R10; false: the paper's rule
+  std::vector<double> wind;           ///< velocity of the air at the start and beyond open sides [m s^-1], default 0
+  std::string initial_flow = "wind";  ///< "wind" | "vortices" | "rotation" | "potential": of the air at the start
+  double initial_speed = 1;           ///< U of all but the wind [m s^-1]
   std::optional<ConfinementSection> confinement;
 };
 

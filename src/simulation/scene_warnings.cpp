@@ -123,6 +123,8 @@ class Warner {
     const SuspensionSection& air = *scene_.suspension;
     if (air.wall == "no_slip" && air.viscosity == 0)
       add("suspension.wall", "has no effect on air without viscosity: suspension.viscosity is 0");
+    if (air.initial_flow != "wind" && air.initial_speed == 0)
+      add("suspension.initial_flow", "is air at rest: suspension.initial_speed is 0");
   }
 
   template <int Dim>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/initial_flow.hpp"
 #include "simulation/release.hpp"
 #include "simulation/scene_vectors.hpp"
 #include "sph/sampling.hpp"
@@ -111,21 +112,6 @@ std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Di
   return dense;
 }
 
-/// The wind everywhere but on closed sides, where it would blow through.
-template <int Dim>
-FaceField<Dim> wind_in_box(const MacGrid<Dim>& grid, const Walls<Dim>& walls, const Vec<Dim>& wind) {
-  FaceField<Dim> u = make_face_field<Dim>(grid);
-  for (int axis = 0; axis < Dim; ++axis) {
-    const auto k = static_cast<std::size_t>(axis);
-    for_each_index<Dim>(u[k].shape(), [&](const Index<Dim>& face) {
-      const bool closed = (face[k] == 0 && walls.sides[k][0] == Side::closed) ||
-                          (face[k] == grid.cells[k] && walls.sides[k][1] == Side::closed);
-      u[k][face] = closed ? 0 : wind[axis];
-    });
-  }
-  return u;
-}
-
 template <int Dim>
 std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<Dim>& walls) {
   if (!scene.suspension) return std::nullopt;
@@ -150,7 +136,8 @@ std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<D
   options.moving_core = section.moving_core;
   options.wind = vector_or<Dim>(section.wind);
   std::optional<Suspension<Dim>> air(std::in_place, grid, walls.sides, options);
-  if (!options.wind.isZero()) air->set_velocity(wind_in_box<Dim>(grid, walls, options.wind));
+  if (section.initial_flow != "wind" || !options.wind.isZero())
+    air->set_velocity(initial_flow<Dim>(section, grid, walls));
   return air;
 }
 

@@ -30,7 +30,7 @@ std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls
 template <int Dim>
 std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Dim>& walls);
 
-/// The air at rest, without smoke; empty without [suspension].
+/// The air as it begins, without smoke; empty without [suspension].
 template <int Dim>
 std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<Dim>& walls);
 

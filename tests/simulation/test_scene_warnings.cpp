@@ -61,6 +61,11 @@ TEST_CASE("scenes that hardly mean what they say get a warning with its place an
        "a.toml:14:8: warning: suspension.wall: has no effect on air without viscosity: suspension.viscosity is 0"},
       {head + "left = \"closed\"\n[suspension]\nwind = [3, 0]\n",
        "a.toml:7:8: warning: suspension.wind: comes through a closed side of the domain: it will die down"},
+      {head + "[suspension]\ninitial_flow = \"rotation\"\ninitial_speed = 0\n",
+       "a.toml:6:16: warning: suspension.initial_flow: is air at rest: suspension.initial_speed is 0"},
+      {head + "[suspension]\ninitial_speed = 2\n",
+       "a.toml:6:17: warning: suspension.initial_speed: has no effect, it belongs to suspension.initial_flow = "
+       "\"vortices\" or \"rotation\" or \"potential\""},
       {head + "gravity = [0, 9.81]\n[suspension]\n", "a.toml:5:11: warning: domain.gravity: points upwards"},
       {good + "[suspension]\ncell_size = 1\n[coupling]\n",
        "a.toml:14:2: warning: coupling: nothing is exchanged: it has none of drag, lift, generation and adhesion"},
