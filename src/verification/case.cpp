@@ -24,8 +24,10 @@ double ErrorNorms::max() const {
   return reference_max_ > 0 ? difference_max_ / reference_max_ : difference_max_;
 }
 
-Series with_settings(const Series& base, std::string factor, std::string label, std::vector<std::string> settings) {
-  Series series{std::move(factor), std::move(label), std::move(settings), base.levels};
+Series with_settings(const Series& base, std::string factor, std::string label,
+                     const std::vector<std::string>& settings) {
+  Series series{std::move(factor), std::move(label), base.settings, base.levels};
+  series.settings.insert(series.settings.end(), settings.begin(), settings.end());
   for (Level& level : series.levels) level.gate = std::numeric_limits<double>::infinity();
   return series;
 }

@@ -79,8 +79,9 @@ struct Case {
   std::variant<Compare<2>, Compare<3>> compare;
 };
 
-/// The default series with other settings: one more curve over the same levels. Its levels have no gates.
-Series with_settings(const Series& base, std::string factor, std::string label, std::vector<std::string> settings);
+/// The default series with more settings: one more curve over the same levels. Its levels have no gates.
+Series with_settings(const Series& base, std::string factor, std::string label,
+                     const std::vector<std::string>& settings);
 
 /// A curve at one resolution, the level of `base` with that number, over the values of one key.
 Series over_values(const Series& base, std::size_t level, std::string factor, std::string key,
