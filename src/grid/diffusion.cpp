@@ -33,15 +33,20 @@ void solve_line(const Lines& lines, std::ptrdiff_t stride, int n) {
     sum += w * x;
     n_fixed += fixed + hold;
   }
-  T next{}, solved{};
+  T next{}, solved{}, size{};
   for (int i = n - 1; i >= 0; --i) {
     const std::ptrdiff_t at = i * stride;
     next = load<T>(lines.x + at) + load<T>(lines.ratio + at) * next;
     store<T>(lines.x + at, next);
     solved += load<T>(lines.weight + at) * next;
+    size += load<T>(lines.weight + at) * magnitude(next);
   }
-  const T correction = n_fixed > 0 || solved <= 0 ? T{} + 1 : sum / (solved > 0 ? solved : T{} + 1);
-  for (int i = 0; i < n; ++i) store<T>(lines.x + i * stride, load<T>(lines.x + i * stride) * correction);
+  // In proportion to |x|: positive values stay positive, and a sum that is next to nothing does no harm.
+  const T correction = n_fixed > 0 || size <= 0 ? T{} : (sum - solved) / (size > 0 ? size : T{} + 1);
+  for (int i = 0; i < n; ++i) {
+    const T x = load<T>(lines.x + i * stride);
+    store<T>(lines.x + i * stride, x + correction * magnitude(x));
+  }
 }
 
 }  // namespace
@@ -122,7 +127,10 @@ void Diffusion<Dim>::diffuse_velocity(FaceField<Dim>& u, const Field<Dim>& smoke
       n = 0;
       for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
         const bool joined = i[axis] + 1 < shape[axis] && air[n] > 0 && air[n + stride] > 0;
-        link_[n] = joined ? spread * (weight_[n] + weight_[n + stride]) : 0;
+        // A face on a side has half a cell of mass, while the cell that it shares with the next face is a whole one.
+        const double of_low = component == axis && i[axis] == 0 ? 2 : 1;
+        const double of_high = component == axis && i[axis] + 2 == shape[axis] ? 2 : 1;
+        link_[n] = joined ? spread * (of_low * weight_[n] + of_high * weight_[n + stride]) : 0;
         ++n;
       });
       hold_at_sides(sides, shape, component, axis, spread);

@@ -116,6 +116,35 @@ TEMPLATE_TEST_CASE_SIG("viscosity keeps momentum and a uniform stream, and damps
   CHECK(momentum(again) == Approx(before).epsilon(1e-12));
 }
 
+/// u_0 = sin(pi x_0) cos(pi x_up) between closed sides decays by exp(-2 nu pi^2 t): the shear passes to the sides that
+/// stop it, and lines whose momentum is zero have no say.
+TEMPLATE_TEST_CASE_SIG("viscosity damps a vortex between slippery walls at its rate", "[diffusion]", ((int Dim), Dim),
+                       2, 3) {
+  constexpr double pi = 3.14159265358979323846, viscosity = 1e-2, dt = 1e-2;
+  constexpr int n_steps = 50;
+  const auto error = [&](int n) {
+    const MacGrid<Dim> grid = box_grid<Dim>(n);
+    const Ground<Dim> ground(grid, 1.2);
+    FaceField<Dim> area = whole_areas(grid);
+    for_each_index<Dim>(grid.faces(0), [&](const Index<Dim>& i) {
+      if (i[0] == 0 || i[0] == n) area[0][i] = 0;
+    });
+    FaceField<Dim> u = face_velocity<Dim>(grid, [&](const Vec<Dim>& x) {
+      return Vec<Dim>(std::sin(pi * x[0]) * std::cos(pi * x[Dim - 1]) * Vec<Dim>::Unit(0));
+    });
+    const FaceField<Dim> start = u;
+    Diffusion<Dim> diffusion;
+    for (int step = 0; step < n_steps; ++step)
+      diffusion.diffuse_velocity(u, Field<Dim>(grid.cells), area, grid, ground, {}, viscosity, dt);
+    const double share = std::pow(1 + viscosity * pi * pi * dt, -2 * n_steps);
+    double largest = 0;
+    for (std::size_t f = 0; f < u[0].size(); ++f) largest = std::max(largest, std::abs(u[0][f] - share * start[0][f]));
+    return largest;
+  };
+  CHECK(error(16) < 5e-4);
+  CHECK(error(32) < error(16) / 3.5);
+}
+
 TEST_CASE("diffusion that has not been used holds nothing", "[diffusion]") {
   CHECK(Diffusion<2>().bytes() == 0);
 }
