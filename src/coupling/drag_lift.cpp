@@ -87,7 +87,8 @@ void exchange_drag(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
       region.on_faces[axis][k].spread(c * region.velocity[k][axis], momentum);
     }
     std::vector<double>&u = region.face_velocity[axis], &m = region.face_mass[axis];
-    for (std::size_t s = 0; s < n_faces; ++s) u[s] = (m[s] * u[s] + momentum[s]) / (m[s] + weight[s]);
+    for (std::size_t s = 0; s < n_faces; ++s)
+      if (std::isfinite(m[s])) u[s] = (m[s] * u[s] + momentum[s]) / (m[s] + weight[s]);
     for (std::size_t k = 0; k < n; ++k) {
       const Shares<Dim>& shares = region.on_faces[axis][k];
       const std::uint32_t i = region.particles[k];

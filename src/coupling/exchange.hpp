@@ -11,8 +11,9 @@ template <int Dim>
 struct Exchange {
   ParticleSources<Dim> on_particles;  ///< one entry a particle of the dense flow
   GridSources<Dim> on_grid;           ///< only what was touched
-  /// Momentum of smoke that is made or sticks next to faces with a given velocity u_f (closed, or beside the core): the
-  /// face keeps what moves its new mass at u_f, ground and core take the rest, which stands here [kg m s^-1].
+  /// Momentum given to faces with a given velocity u_f (closed, beside the core, or of frozen air): the face keeps what
+  /// moves the smoke that is made or sticks at u_f; ground, core and what holds the frozen air take the rest, which
+  /// stands here [kg m s^-1].
   Vec<Dim> on_fixed_faces = Vec<Dim>::Zero();
   double generated = 0;  ///< smoke made from particles [kg]
   double adhered = 0;    ///< smoke that stuck to particles [kg]

@@ -1,5 +1,7 @@
 #include "coupling/overlap_region.hpp"
 
+#include <limits>
+
 namespace spindrift {
 namespace {
 
@@ -62,7 +64,8 @@ void find_region(OverlapRegion<Dim>& region, const Particles<Dim>& particles, st
     region.face_velocity[axis].resize(faces.size());
     region.face_momentum[axis].assign(faces.size(), 0.0);
     for (std::size_t s = 0; s < faces.size(); ++s) {
-      region.face_mass[axis][s] = suspension.face_mass(axis, faces.points()[s]);
+      region.face_mass[axis][s] = suspension.options().frozen ? std::numeric_limits<double>::infinity()
+                                                              : suspension.face_mass(axis, faces.points()[s]);
       region.face_velocity[axis][s] = suspension.velocity()[axis][faces.points()[s]];
     }
     region.start_velocity[axis] = region.face_velocity[axis];

@@ -87,7 +87,8 @@ struct OverlapRegion {
   std::vector<Shares<Dim>> on_cells;                   ///< [k]
   std::array<PointSet<Dim>, Dim> faces;
   PointSet<Dim> cells;
-  std::array<std::vector<double>, Dim> face_mass;       ///< m_f = air + smoke of the face's control volume [kg]
+  std::array<std::vector<double>, Dim>
+      face_mass;  ///< m_f = air + smoke of the face's control volume [kg]; infinite in frozen air
   std::array<std::vector<double>, Dim> start_velocity;  ///< u_f before the exchange [m s^-1]
   std::array<std::vector<double>, Dim> face_velocity;   ///< u_f, changed by drag and lift [m s^-1]
   std::array<std::vector<double>, Dim> face_momentum;   ///< given to the face so far [kg m s^-1]

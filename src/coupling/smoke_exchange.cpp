@@ -14,7 +14,7 @@ double relaxed_share(double x) {
 
 /// A face of a cell that takes part in the exchange.
 struct CellFace {
-  bool closed = false, active = false;
+  bool closed = false, yields = false;
   std::uint32_t slot = 0;  ///< in the region's faces, where the face is not closed
   double velocity = 0;     ///< of the air, as drag and lift left it; 0 on closed faces [m s^-1]
 };
@@ -30,7 +30,8 @@ CellFace cell_face(OverlapRegion<Dim>& region, const Suspension<Dim>& suspension
     region.face_velocity[axis].resize(slot + 1, suspension.velocity()[axis][face]);
     region.face_momentum[axis].resize(slot + 1, 0.0);
   }
-  return {false, suspension.active_faces()[axis][face] != 0, slot, region.face_velocity[axis][slot]};
+  const bool yields = suspension.active_faces()[axis][face] != 0 && !suspension.options().frozen;
+  return {false, yields, slot, region.face_velocity[axis][slot]};
 }
 
 /// Turns `dm` of the region's particle k into smoke of the cells around it, at the particle's velocity.
@@ -69,7 +70,7 @@ void book_cells(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Suspe
       // A face's control volume holds half of each cell beside it, so each face takes part with half of what moves.
       for (const CellFace& face : faces) {
         const double gained = 0.5 * (cells.momentum[axis][s] - stuck * face.velocity);
-        const double kept = face.active ? gained : 0.5 * (made - stuck) * face.velocity;
+        const double kept = face.yields ? gained : 0.5 * (made - stuck) * face.velocity;
         if (!face.closed) region.face_momentum[axis][face.slot] += kept;
         exchange.on_fixed_faces[axis] += gained - kept;
       }
@@ -160,6 +161,16 @@ std::size_t dissolve_spent(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, 
 }
 
 template <int Dim>
+void hold_faces(OverlapRegion<Dim>& region, Exchange<Dim>& exchange) {
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (double& given : region.face_momentum[axis]) {
+      exchange.on_fixed_faces[axis] += given;
+      given = 0;
+    }
+  }
+}
+
+template <int Dim>
 void book_faces(const OverlapRegion<Dim>& region, Exchange<Dim>& exchange) {
   for (int axis = 0; axis < Dim; ++axis)
     for (std::size_t s = 0; s < region.faces[axis].size(); ++s)
@@ -173,6 +184,7 @@ void book_faces(const OverlapRegion<Dim>& region, Exchange<Dim>& exchange) {
                                     const Suspension<Dim>&, const SmokeOptions&, double);              \
   template std::size_t dissolve_spent<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&, const Particles<Dim>&, \
                                            const Suspension<Dim>&, double);                            \
+  template void hold_faces<Dim>(OverlapRegion<Dim>&, Exchange<Dim>&);                                  \
   template void book_faces<Dim>(const OverlapRegion<Dim>&, Exchange<Dim>&);
 INSTANTIATE(2)
 INSTANTIATE(3)

@@ -56,6 +56,10 @@ template <int Dim>
 std::size_t dissolve_spent(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Particles<Dim>& particles,
                            const Suspension<Dim>& suspension, double min_mass);
 
+/// Frozen air, after drag and lift: what they gave the region's faces goes to what holds the air.
+template <int Dim>
+void hold_faces(OverlapRegion<Dim>& region, Exchange<Dim>& exchange);
+
 /// Lists the momentum that the region's faces were given in `exchange.on_grid`. Last call of the exchange.
 template <int Dim>
 void book_faces(const OverlapRegion<Dim>& region, Exchange<Dim>& exchange);

@@ -179,7 +179,7 @@ void Suspension<Dim>::set_density() {
 template <int Dim>
 Vec<Dim> Suspension<Dim>::add_gravity(double dt) {
   Vec<Dim> change = Vec<Dim>::Zero();
-  if (options_.gravity.isZero()) return change;
+  if (options_.gravity.isZero() || options_.frozen) return change;
   smoke_span_.resize(smoke_.n_rows());
   for (std::size_t r = 0; r < smoke_.n_rows(); ++r) smoke_span_[r] = nonzero_span(smoke_.row(r));
   if (std::ranges::all_of(smoke_span_, &Span::empty)) return change;
@@ -242,7 +242,7 @@ Vec<Dim> Suspension<Dim>::apply(const GridSources<Dim>& sources) {
     for (const PointSource& source : sources.momentum[axis]) {
       double& u = velocity_[axis][source.point];
       const double mass = face_mass(axis, source.point), before = face_momentum_[n++];
-      if (active_[axis][source.point]) u = (before + source.amount) / mass;
+      if (active_[axis][source.point] && !options_.frozen) u = (before + source.amount) / mass;
       change[axis] += mass * u - before;
     }
   }

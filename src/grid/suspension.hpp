@@ -36,6 +36,7 @@ struct SuspensionOptions {
   std::optional<double> confinement;  ///< epsilon of vorticity confinement
   ProjectionOptions pressure;
   bool moving_core = true;  ///< R10; false: the paper's rule, normal velocity 0
+  bool frozen = false;      ///< the velocity stays what set_velocity() made it: something outside holds the air
 };
 
 /// What advance() did. The momentum entries [kg m s^-1] are changes of Suspension::momentum(); their sum is its change
@@ -99,16 +100,16 @@ class Suspension {
   double max_speed() const;    ///< largest face velocity at the last step's end [m/s]; NaN: not finite
 
   /// One term (R8): du = dt r_s g on active faces, r_s = rho_smoke / (rho_air + rho_smoke), Eqs. (7)-(9).
-  /// Returns the change of momentum() [kg m s^-1].
+  /// Returns the change of momentum() [kg m s^-1]; frozen air does not change.
   Vec<Dim> add_gravity(double dt);
 
-  /// u' = (m_f u + J_f) / m_f' on listed active faces, smoke' = smoke + source. Listed faces that are not active take
-  /// no momentum. Returns the change of momentum() [kg m s^-1]: the sum of the J_f where all faces of a cell with a
-  /// source are active and listed.
+  /// u' = (m_f u + J_f) / m_f' on listed active faces, smoke' = smoke + source. Listed faces that are not active, and
+  /// all of frozen air, take no momentum. Returns the change of momentum() [kg m s^-1]: the sum of the J_f where all
+  /// faces of a cell with a source are active and listed.
   Vec<Dim> apply(const GridSources<Dim>& sources);
 
   /// The rest of the step, paper Sec. 4.2: kinds of cells, core boundary (R10), advection, smoke transport (R7),
-  /// diffusion and confinement where present, projection (R9).
+  /// diffusion and confinement where present, projection (R9). In frozen air the smoke's transport alone, cores or not.
   /// cores  in-out: in order of `cell`, no cell twice, mass > 0; their outputs are set
   /// Throws Error(unstable): the step starts from a velocity that is not finite.
   void advance(double dt, std::span<CoreCell<Dim>> cores, Stages& stages);

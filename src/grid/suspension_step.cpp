@@ -12,6 +12,15 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
   budget_ = {};
   if (!std::isfinite(max_speed())) throw Error(ExitCode::unstable, "the air's velocity is not finite");
   if (at_rest(cores)) return move_smoke(dt, stages);
+  const auto move_smoke_and_book = [&] {
+    const Vec<Dim> before = momentum_of_smoke<Dim>(smoke_, velocity_, ground_);
+    move_smoke(dt, stages);
+    return Vec<Dim>(momentum_of_smoke<Dim>(smoke_, velocity_, ground_) - before);
+  };
+  if (options_.frozen) {
+    budget_.smoke = move_smoke_and_book();
+    return;
+  }
 
   Vec<Dim> last = momentum_ ? *momentum_ : momentum();
   const auto book = [&](Vec<Dim>& entry, const Vec<Dim>& change) {
@@ -36,9 +45,7 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
     carry_velocity(dt / 2, stages);
     book_all(budget_.advection);
   }
-  const Vec<Dim> of_smoke = momentum_of_smoke<Dim>(smoke_, velocity_, ground_);
-  move_smoke(dt, stages);
-  book(budget_.smoke, momentum_of_smoke<Dim>(smoke_, velocity_, ground_) - of_smoke);
+  book(budget_.smoke, move_smoke_and_book());
   // 3. Forces.
   if (options_.viscosity > 0) {
     const auto timed = stages.time("suspension.viscosity");

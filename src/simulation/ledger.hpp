@@ -37,7 +37,7 @@ struct StepReport {
   Vec<Dim> gravity_on_smoke = Vec<Dim>::Zero();
   Vec<Dim> exchange_on_particles = Vec<Dim>::Zero();
   Vec<Dim> exchange_on_grid = Vec<Dim>::Zero();
-  Vec<Dim> exchange_on_fixed_faces = Vec<Dim>::Zero();  ///< on ground and core, see Exchange
+  Vec<Dim> exchange_on_fixed_faces = Vec<Dim>::Zero();  ///< on ground, core and what holds frozen air, see Exchange
   Vec<Dim> core_reaction = Vec<Dim>::Zero();            ///< air on the dense core
   Vec<Dim> outflow = Vec<Dim>::Zero();                  ///< with particles that left
   Vec<Dim> ground_on_air = Vec<Dim>::Zero();            ///< air that the sinking cover uncovers

@@ -167,6 +167,7 @@ void add_smoke(Registry& r) {
                                  "U: largest u of the vortex, speed of the rotation half the box's breadth from its "
                                  "middle (positive: x towards z), largest component of the potential flow")
       .always()
+      .plain<&U::frozen>("frozen", "the air keeps the velocity that it began with, and carries smoke and snow along")
       .plain<&U::moving_core>("moving_core", "the dense core pushes the air aside; false: the paper's rule", "R10");
   Rows<&Scene::suspension, &U::confinement>(r, "suspension.confinement", "vorticity confinement: keeps swirls alive")
       .number<&ConfinementSection::strength>("strength", "", from(0, 100), "epsilon", "Eq. (8)");

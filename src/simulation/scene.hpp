@@ -118,6 +118,7 @@ struct SuspensionSection {
   std::vector<double> wind;           ///< velocity of the air at the start and beyond open sides [m s^-1], default 0
   std::string initial_flow = "wind";  ///< "wind" | "vortices" | "rotation" | "potential": of the air at the start
   double initial_speed = 1;           ///< U of all but the wind [m s^-1]
+  bool frozen = false;                ///< the air keeps the velocity that it began with
   std::optional<ConfinementSection> confinement;
 };
 

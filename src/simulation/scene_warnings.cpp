@@ -123,6 +123,12 @@ class Warner {
     const SuspensionSection& air = *scene_.suspension;
     if (air.wall == "no_slip" && air.viscosity == 0)
       add("suspension.wall", "has no effect on air without viscosity: suspension.viscosity is 0");
+    if (air.frozen) {
+      constexpr std::string_view none = "has no effect on air that is frozen: suspension.frozen is true";
+      if (air.viscosity > 0) add("suspension.viscosity", none);
+      if (air.confinement) add("suspension.confinement", none);
+      if (!is_zero(air.lid)) add("suspension.lid", none);
+    }
     if (air.initial_flow != "wind" && air.initial_speed == 0)
       add("suspension.initial_flow", "is air at rest: suspension.initial_speed is 0");
   }
@@ -154,7 +160,8 @@ class Warner {
   void wind(const Walls<Dim>& walls) {
     const Vec<Dim> wind = vector_or<Dim>(scene_.suspension->wind);
     for (int axis = 0; axis < Dim; ++axis)
-      if (wind[axis] != 0 && walls.sides[static_cast<std::size_t>(axis)][wind[axis] > 0 ? 0 : 1] == Side::closed)
+      if (wind[axis] != 0 && !scene_.suspension->frozen &&
+          walls.sides[static_cast<std::size_t>(axis)][wind[axis] > 0 ? 0 : 1] == Side::closed)
         add("suspension.wind", "comes through a closed side of the domain: it will die down");
   }
 

@@ -134,6 +134,7 @@ std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<D
   if (section.confinement) options.confinement = section.confinement->strength;
   options.pressure = {section.tolerance, section.max_iterations};
   options.moving_core = section.moving_core;
+  options.frozen = section.frozen;
   options.wind = vector_or<Dim>(section.wind);
   std::optional<Suspension<Dim>> air(std::in_place, grid, walls.sides, options);
   if (section.initial_flow != "wind" || !options.wind.isZero())

@@ -127,6 +127,7 @@ void Simulation<Dim>::exchange_layers() {
   if (c.drag)
     exchange_drag<Dim>(region_, exchange_, p, *c.drag, c.smoke.radius, c.air_density, dt_, gravity_.squaredNorm() > 0);
   if (c.lift) exchange_lift<Dim>(region_, exchange_, p, *suspension_, *c.lift, dt_);
+  if (scene_.suspension->frozen) hold_faces<Dim>(region_, exchange_);
   if (c.smoke.generation || c.smoke.adhesion) exchange_smoke<Dim>(region_, exchange_, p, *suspension_, c.smoke, dt_);
   book_faces<Dim>(region_, exchange_);
 
@@ -164,7 +165,7 @@ void Simulation<Dim>::advance_dense_flow() {
 template <int Dim>
 void Simulation<Dim>::advance_suspension() {
   if (!suspension_) return;
-  if (dense_) core_.find(dense_->particles, overlap_, *suspension_);
+  if (dense_ && !scene_.suspension->frozen) core_.find(dense_->particles, overlap_, *suspension_);
   suspension_->advance(dt_, core_.cells(), stages_);
   report_.suspension = suspension_->budget();
   masses_.smoke_outflow += report_.suspension.outflow;

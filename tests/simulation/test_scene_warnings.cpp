@@ -66,6 +66,10 @@ TEST_CASE("scenes that hardly mean what they say get a warning with its place an
       {head + "[suspension]\ninitial_speed = 2\n",
        "a.toml:6:17: warning: suspension.initial_speed: has no effect, it belongs to suspension.initial_flow = "
        "\"vortices\" or \"rotation\" or \"potential\""},
+      {head + "[suspension]\nfrozen = true\nviscosity = 2\n",
+       "a.toml:7:13: warning: suspension.viscosity: has no effect on air that is frozen: suspension.frozen is true"},
+      {head + "[suspension]\nfrozen = true\n[suspension.confinement]\n",
+       "a.toml:7:13: warning: suspension.confinement: has no effect on air that is frozen: suspension.frozen is true"},
       {head + "gravity = [0, 9.81]\n[suspension]\n", "a.toml:5:11: warning: domain.gravity: points upwards"},
       {good + "[suspension]\ncell_size = 1\n[coupling]\n",
        "a.toml:14:2: warning: coupling: nothing is exchanged: it has none of drag, lift, generation and adhesion"},

@@ -16,6 +16,9 @@ constexpr std::string_view avalanche() {
   return Dim == 2 ? small_avalanche : small_avalanche_3d;
 }
 
+const std::vector<std::string> frozen_rotation{"suspension.frozen=true", "suspension.initial_flow=rotation",
+                                               "suspension.initial_speed=4", "suspension.diffusivity=0.1"};
+
 template <int Dim>
 Simulation<Dim> run(const Scene& scene) {
   Simulation<Dim> simulation(scene);
@@ -27,7 +30,9 @@ Simulation<Dim> run(const Scene& scene) {
 
 TEMPLATE_TEST_CASE_SIG("Mass is constant and every exchange cancels, step by step", "[simulation]", ((int Dim), Dim), 2,
                        3) {
-  Simulation<Dim> simulation(scene_of(avalanche<Dim>()));
+  const bool frozen = GENERATE(false, true);
+  Simulation<Dim> simulation(
+      scene_of(avalanche<Dim>(), frozen ? frozen_rotation : std::vector<std::string>{"suspension.frozen=false"}));
   while (!simulation.done()) {
     simulation.step();
     const StepReport<Dim>& r = simulation.report();
@@ -44,8 +49,9 @@ TEMPLATE_TEST_CASE_SIG("Mass is constant and every exchange cancels, step by ste
 
 TEMPLATE_TEST_CASE_SIG("The ledger accounts for all momentum of the snow and of the air", "[simulation]",
                        ((int Dim), Dim), 2, 3) {
-  const auto scheme = GENERATE(as<std::string>{}, "maccormack", "reflection");
-  Simulation<Dim> simulation(scene_of(avalanche<Dim>(), {"suspension.scheme=" + scheme}));
+  const auto settings = GENERATE(std::vector<std::string>{"suspension.scheme=maccormack"},
+                                 std::vector<std::string>{"suspension.scheme=reflection"}, frozen_rotation);
+  Simulation<Dim> simulation(scene_of(avalanche<Dim>(), settings));
   const auto snow = [&] {
     Vec<Dim> sum = Vec<Dim>::Zero();
     const Particles<Dim>& p = simulation.dense()->particles;
