@@ -265,9 +265,8 @@ Case lift_circle() {
   circle.series = {steps};
   circle.least_order = 1.9;
   circle.remark =
-      "The turn is of second order, a third of theta^2. The speed is not: backward Euler damps it by theta k omega t / "
-      "2,"
-      " so that the circle is a spiral, to 30 % a round at theta = 0.1.";
+      "The turn is of second order, a third of theta^2. The speed is not: backward Euler damps it by theta k omega "
+      "t / 2, so that the circle is a spiral, to 30 % a round at theta = 0.1.";
   circle.compare = Compare<2>(compare_lift_circle);
   return circle;
 }
@@ -285,9 +284,9 @@ Case exchange_equilibrium() {
   exchange.series = {steps, with_settings(steps, "smoke", "C_g = 0.2", {"coupling.generation.constant=0.2"})};
   exchange.quick = true;
   exchange.remark =
-      "With the paper's C_g = 0.2 the equilibrium is 20 kg/m^3 at 10 m/s. A step is exact there too, as the first one "
-      "shows; from then on what sticks drags the snow along, the slip falls by a sixth in 0.25 s, and 6 % less smoke "
-      "is held.";
+      "With the paper's C_g = 0.2 the equilibrium is 20 kg/m^3 at 10 m/s. A step is exact there too, as the first "
+      "one shows; from then on what sticks drags the snow along, the slip falls by a sixth in 0.25 s, and 6 % less "
+      "smoke is held.";
   exchange.compare = Compare<3>(compare_exchange_equilibrium);
   return exchange;
 }
@@ -307,8 +306,7 @@ Case coupled_step() {
   step.least_order = 0.9;
   step.remark =
       "At first dt is about 0.2, 20 and 2e4 times r / ((1 + phi) k w), k = 0.1, 10 and 1e4: of first order all the "
-      "same. An "
-      "explicit step would be unstable beyond 2.";
+      "same. An explicit step would be unstable beyond 2.";
   step.compare = Compare<2>(compare_coupled_step);
   return step;
 }

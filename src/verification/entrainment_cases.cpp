@@ -8,7 +8,7 @@ namespace spindrift {
 namespace {
 
 /// The stretch of ground that the slab covers from the start to the end [m along the ground].
-constexpr double stretch_from = 15, stretch_to = 215;
+constexpr double stretch_from = 16, stretch_to = 216;
 
 double cover_on_stretch(const Simulation<2>& simulation) {
   const Cover<2>& cover = *simulation.cover();
@@ -58,13 +58,10 @@ std::vector<Case> entrainment_cases() {
                  over_values(steps, 1, "seed", "scene.seed", {"1", "2", "3", "4", "5"})};
   flux.quick = true;
   flux.remark =
-      "The gate is four standard deviations of 2000 particles, 2.2 % each. The particles' clocks are the same at all "
-      "time "
-      "steps, so that the levels differ by what a long step misses: a bin of ground may run out of candidates before "
-      "its "
-      "end, at most Er A dt / 2 m, 10 % at 10 ms. By rule bernoulli the probability of a step is Er S dt / m: too much "
-      "is "
-      "taken in long steps.";
+      "The gate is four standard deviations, 2.2 % each with 2000 particles. The particles' clocks are the same at "
+      "all time steps, so that the levels differ by what a long step misses: a bin of ground may run out of "
+      "candidates before its end, at most Er A dt / 2 m, 10 % at 10 ms. By rule bernoulli the probability of a step "
+      "is Er S dt / m: too much is taken in long steps.";
   flux.compare = Compare<2>(compare_entrainment_flux);
   return {flux};
 }
