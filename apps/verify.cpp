@@ -10,6 +10,7 @@
 #include "simulation/spelling.hpp"
 #include "verification/cases.hpp"
 #include "verification/refinement.hpp"
+#include "verification/stability.hpp"
 #include "verification/study_page.hpp"
 
 namespace spindrift {
@@ -19,7 +20,7 @@ struct VerifyArguments {
   std::vector<std::string> what, settings;
   std::string folder = "verification";
   int threads = 0, repeats = 3;
-  bool list = false, quick = false;
+  bool list = false, quick = false, stability = false;
 };
 
 void say(const std::string& line) {
@@ -103,9 +104,30 @@ ExitCode refine_scene(const VerifyArguments& arguments) {
   return ExitCode::done;
 }
 
+ExitCode verify_stability(const VerifyArguments& arguments) {
+  make_folder(arguments.folder);
+  std::vector<Trial> trials = extreme_trials();
+  for (Trial& point : map_trials(arguments.quick ? 100 : 300)) trials.push_back(std::move(point));
+  std::vector<TrialResult> results;
+  std::size_t n_bad = 0;
+  for (const Trial& trial : trials) {
+    results.push_back(run_trial(trial));
+    const TrialResult& r = results.back();
+    if (!r.good()) ++n_bad;
+    if (!r.good() || trial.set != "map" || results.size() % 20 == 0)
+      say(fmt::format("{:>3}/{} {:<4} {:<44} {}{}", results.size(), trials.size(), trial.set, trial.name,
+                      name_of(r.verdict), r.good() ? "" : ", not as it should: " + r.reason));
+  }
+  write_stability(arguments.folder, results, say);
+  say(fmt::format("{} trials, {} not as they should", results.size(), n_bad));
+  fmt::print("{}/stability.md\n", arguments.folder);
+  return ExitCode::done;
+}
+
 ExitCode verify(const VerifyArguments& arguments) {
   if (arguments.list) return list_cases();
   const ThreadLimit threads(arguments.threads);
+  if (arguments.stability) return verify_stability(arguments);
   const bool scene = std::ranges::any_of(arguments.what, [](const std::string& w) { return w.ends_with(".toml"); });
   if (scene) return refine_scene(arguments);
   if (!arguments.settings.empty())
@@ -124,7 +146,8 @@ void add_verify(CLI::App& app, Command& chosen) {
       ->type_name("DIR")
       ->capture_default_str();
   command->add_flag("--list", arguments->list, "name the cases, with a line each");
-  command->add_flag("--quick", arguments->quick, "ten cases at two levels, once each: some minutes");
+  command->add_flag("--stability", arguments->stability, "try extreme scenes and a map of stiff ones instead");
+  command->add_flag("--quick", arguments->quick, "ten cases at two levels, once each; a map of 100 points");
   command->add_option("--repeats", arguments->repeats, "of every run, for the median of its time")
       ->check(CLI::Range(1, 100))
       ->type_name("N")

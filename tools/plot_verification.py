@@ -35,8 +35,15 @@ def groups(rows, *keys):
     return itertools.groupby(rows, key=lambda row: tuple(row[key] for key in keys))
 
 
+SMALLEST = 1e-16  # errors below are drawn there
+
+
 def usable(rows):
-    return [row for row in rows if not row["failure"] and 0 < float(row["error_l2"]) < math.inf and float(row["seconds"]) > 0]
+    """The points that a logarithmic diagram can show."""
+    found = [row for row in rows if not row["failure"] and float(row["error_l2"]) < math.inf and float(row["seconds"]) > 0]
+    for row in found:
+        row["error_l2"] = max(float(row["error_l2"]), SMALLEST)
+    return found
 
 
 def work_precision(axes, curves):
@@ -102,8 +109,40 @@ def draw_refinement(folder):
 
 
 def draw_stability(folder):
-    rows = rows_of(folder / "stability.csv")
-    print(len(rows))
+    points = [row for row in rows_of(folder / "stability.csv") if row["set"] == "map"]
+    if not points:
+        return
+    names = list(points[0])[list(points[0]).index("reason") + 1:]
+    kinds = (("passed", "o", "tab:blue"), ("stopped", "s", "tab:orange"), ("refused", "D", "0.5"),
+             ("failed", "X", "tab:red"))
+    n = len(names)
+    figure, all_axes = plt.subplots(n - 1, n - 1, figsize=(1.9 * (n - 1), 1.8 * (n - 1)), squeeze=False)
+    for row in range(1, n):
+        for column in range(n - 1):
+            axes = all_axes[row - 1][column]
+            if column >= row:
+                axes.set_axis_off()
+                continue
+            for kind, marker, colour in kinds:
+                for beyond in ("0", "1"):
+                    mine = [p for p in points if p["verdict"] == kind and p["beyond"] == beyond]
+                    axes.scatter([float(p[names[column]]) for p in mine], [float(p[names[row]]) for p in mine], s=9,
+                                 marker=marker, facecolors=colour if beyond == "0" else "none", edgecolors=colour,
+                                 linewidths=0.7, zorder=3 if kind != "passed" else 2)
+            for name, scale in ((names[column], axes.set_xscale), (names[row], axes.set_yscale)):
+                if "[deg]" not in name:
+                    scale("log")
+            axes.tick_params(labelsize=5)
+            axes.minorticks_off()
+            if row == n - 1:
+                axes.set_xlabel(names[column], fontsize=7)
+            if column == 0:
+                axes.set_ylabel(names[row], fontsize=7)
+    handles = [plt.Line2D([], [], ls="", marker=m, color=c, label=k) for k, m, c in kinds]
+    handles.append(plt.Line2D([], [], ls="", marker="o", mfc="none", color="0.3", label="hollow: beyond the documented range"))
+    figure.legend(handles=handles, loc="upper right", bbox_to_anchor=(0.95, 0.9), fontsize=10, frameon=False)
+    figure.tight_layout()
+    figure.savefig(folder / "stability.png", dpi=80)
 
 
 if __name__ == "__main__":

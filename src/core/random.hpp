@@ -11,7 +11,8 @@ enum class RandomStream : std::uint32_t {
   cover_sampling = 1,
   release_sampling = 2,
   entrainment_clock = 3,
-  bernoulli = 4
+  bernoulli = 4,
+  stability_map = 5
 };
 
 /// A uniform number in (0, 1), never 0 and never 1.

@@ -50,8 +50,12 @@ GroundSurface<Dim>::GroundSurface(const Walls<Dim>& walls, const MacGrid<Dim>& g
   });
   std::sort(near_.begin(), near_.end(),
             [](const Near& a, const Near& b) { return a.column != b.column ? a.column < b.column : a.node < b.node; });
-  if (cover)
-    for (const Near& near : near_) distance_[near.node] = distance_over(*cover, near);
+  if (cover) follow(*cover);
+}
+
+template <int Dim>
+void GroundSurface<Dim>::follow(const Cover<Dim>& cover) {
+  for (const Near& near : near_) distance_[near.node] = distance_over(cover, near);
 }
 
 template <int Dim>

@@ -21,6 +21,8 @@ class GroundSurface {
   /// only its sign.
   const Field<Dim>& node_distance() const { return distance_; }
 
+  /// Follows the cover's surface everywhere.
+  void follow(const Cover<Dim>& cover);
   /// Follows the cover's surface where snow was taken from `places`. Cost: the nodes near these.
   /// Returns the columns of cells along the first axis whose nodes may have moved, apart from each other, ascending.
   std::span<const Span> follow(const Cover<Dim>& cover, std::span<const Vec<Dim>> places);

@@ -164,8 +164,7 @@ void PressureProjection<Dim>::yield(FaceField<Dim>& u, const FaceField<Dim>& ope
 
 template <int Dim>
 double PressureProjection<Dim>::pressure(const Index<Dim>& cell) const {
-  const std::ptrdiff_t place = poisson_.layout.at(cell);
-  return poisson_.is_open(place) ? solver_.solution[static_cast<std::size_t>(place)] : 0;
+  return solver_.solution[static_cast<std::size_t>(poisson_.layout.at(cell))];
 }
 
 template <int Dim>
@@ -174,6 +173,13 @@ void PressureProjection<Dim>::set_pressure(const Field<Dim>& pressure) {
   for_each_index<Dim>(pressure.shape(), [&](const Index<Dim>& cell) {
     solver_.solution[static_cast<std::size_t>(poisson_.layout.at(cell))] = pressure[cell];
   });
+}
+
+template <int Dim>
+void PressureProjection<Dim>::set_guess(const std::vector<double>& guess) {
+  SPINDRIFT_CHECK(guess.size() == solver_.solution.size());
+  solver_.clear();
+  solver_.solution = guess;
 }
 
 template <int Dim>

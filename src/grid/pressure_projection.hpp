@@ -58,6 +58,11 @@ class PressureProjection {
   double pressure(const Index<Dim>& cell) const;
   Field<Dim> pressure() const;
   void set_pressure(const Field<Dim>& pressure);
+
+  /// The same in the solver's own layout, for copies within a run. Setting it forgets all else of the last solve, which
+  /// may have gone astray.
+  const std::vector<double>& guess() const { return solver_.solution; }
+  void set_guess(const std::vector<double>& guess);
   std::size_t bytes() const;
 
  private:

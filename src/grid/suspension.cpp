@@ -57,6 +57,41 @@ void Suspension<Dim>::set_kind(const Field<Dim, CellKind>& kind) {
 }
 
 template <int Dim>
+void Suspension<Dim>::save(SuspensionState<Dim>& state) const {
+  state.velocity = velocity_;
+  state.carrier = carrier_;
+  state.carrier_speed = carrier_speed_;
+  state.smoke = smoke_;
+  state.kind = kind_;
+  state.pressure = projection_.guess();
+  state.momentum = momentum_;
+  state.disturbed = disturbed_;
+  state.kinds_are_old = kinds_are_old_;
+}
+
+template <int Dim>
+void Suspension<Dim>::restore(const SuspensionState<Dim>& state) {
+  velocity_ = state.velocity;
+  carrier_ = state.carrier;
+  carrier_speed_ = state.carrier_speed;
+  smoke_ = state.smoke;
+  kind_ = state.kind;
+  projection_.set_guess(state.pressure);
+  momentum_ = state.momentum;
+  disturbed_ = state.disturbed;
+  kinds_are_old_ = state.kinds_are_old;
+  update_active(0, grid_.cells[0]);
+}
+
+template <int Dim>
+std::size_t SuspensionState<Dim>::bytes() const {
+  std::size_t n = smoke.bytes() + kind.bytes() + spindrift::bytes(pressure);
+  for (std::size_t axis = 0; axis < Dim; ++axis)
+    n += velocity[axis].bytes() + carrier[axis].bytes() + spindrift::bytes(carrier_speed[axis]);
+  return n;
+}
+
+template <int Dim>
 void Suspension<Dim>::set_ground(const Field<Dim>& node_distance) {
   const std::array<Span, 1> all{Span{0, grid_.cells[0]}};
   set_ground(node_distance, all);
@@ -263,6 +298,8 @@ std::size_t Suspension<Dim>::bytes() const {
   return n;
 }
 
+template struct SuspensionState<2>;
+template struct SuspensionState<3>;
 template class Suspension<2>;
 template class Suspension<3>;
 

@@ -57,6 +57,21 @@ struct SuspensionBudget {
   ProjectionResult pressure;
 };
 
+/// What steers the steps to come, beside the ground; the rest of Suspension derives from both, or is scratch.
+template <int Dim>
+struct SuspensionState {
+  FaceField<Dim> velocity;
+  FaceField<Dim> carrier;        ///< not the velocity where sources have changed that since the last advance()
+  RowSpeeds<Dim> carrier_speed;  ///< of before the ground sank
+  Field<Dim> smoke;
+  Field<Dim, CellKind> kind;
+  std::vector<double> pressure;  ///< PressureProjection::guess()
+  std::optional<Vec<Dim>> momentum;
+  bool disturbed = false, kinds_are_old = false;
+
+  std::size_t bytes() const;
+};
+
 template <int Dim>
 class Suspension {
  public:
@@ -79,6 +94,11 @@ class Suspension {
   void set_smoke_mass(const Field<Dim>& smoke);
   void set_kind(const Field<Dim, CellKind>& kind);
   void set_pressure(const Field<Dim>& pressure) { projection_.set_pressure(pressure); }
+
+  /// Copies the state out, into buffers that it reuses, and back. At restore() the ground must be that of save(); the
+  /// steps from there on have the same bits, whatever came between.
+  void save(SuspensionState<Dim>& state) const;
+  void restore(const SuspensionState<Dim>& state);
 
   /// The bed's surface: signed distance at nodes [m], positive in the air.  Throws Error(bad_input): not finite.
   /// columns: only cells of these (along the first axis, apart from each other, ascending) have changed; the result is

@@ -16,6 +16,7 @@ std::vector<Diagnostic> diagnostics(const Simulation<Dim>& s, const Instruments<
   number("step", static_cast<double>(s.n_steps()));
   number("time_s", s.time());
   number("dt_s", r.dt);
+  number("rejected", r.n_rejected);
   number("n_dense", s.dense() ? static_cast<double>(s.dense()->particles.size()) : 0.0);
   number("n_overlap", static_cast<double>(r.n_overlap));
   number("n_core_cells", static_cast<double>(r.n_core_cells));

@@ -28,6 +28,7 @@ template <int Dim>
 struct StepReport {
   double dt = 0;             ///< [s]
   std::string_view limiter;  ///< what ruled dt
+  int n_rejected = 0;        ///< trials of this step, with longer dt, that failed
   std::size_t n_overlap = 0, n_core_cells = 0;
 
   VelocitySolve<Dim> dense;                  ///< iterations, errors and the boundary's impulse on the dense flow

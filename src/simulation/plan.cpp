@@ -18,7 +18,7 @@ namespace spindrift {
 namespace {
 
 // Bytes an item of state, scratch and files, as measured on the paper's 2D scenes.
-constexpr double bytes_per_dense = 1000, bytes_per_cover = 200, bytes_per_cell = 360, bytes_of_program = 33e6;
+constexpr double bytes_per_dense = 1080, bytes_per_cover = 390, bytes_per_cell = 410, bytes_of_program = 33e6;
 constexpr double file_bytes_per_particle = 12, file_bytes_per_cell = 8, bytes_per_picture = 60e3;
 constexpr double bytes_per_diagnostics_row = 800;
 // Seconds of one core, as measured.

@@ -95,6 +95,7 @@ void Recorder<Dim>::write_diagnostics(const Simulation<Dim>& simulation) {
 template <int Dim>
 void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
   const std::uint64_t number = n_frames_++;
+  last_frame_at_ = simulation.n_steps();
   const fs::path folder = options_.folder;
   const auto write = [&](const std::string& layer, std::vector<SeriesEntry>& series, auto frame) {
     const std::string name = frame_path(layer, number).string();
@@ -115,6 +116,11 @@ void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
   writer_.submit([this] { ++n_committed_; });
   diagnostics_->flush();
   write_summary(simulation, "running", {});
+}
+
+template <int Dim>
+void Recorder<Dim>::keep(const Simulation<Dim>& simulation) {
+  if (output_.frames_per_second > 0 && last_frame_at_ != simulation.n_steps()) write_frame(simulation);
 }
 
 template <int Dim>
@@ -191,6 +197,8 @@ void Recorder<Dim>::write_summary(const Simulation<Dim>& s, const std::string& s
   run["dt_min"] = dt_min_;
   run["dt_mean"] = s.n_steps() > 0 ? s.time() / static_cast<double>(s.n_steps()) : 0;
   run["dt_limiters"] = limiters_;
+  run["steps_rejected"] = s.back_off().n_rejected_in_all;
+  run["halvings"] = s.back_off().halvings;
   run["wall_seconds"] = wall_seconds();
   double step_seconds = 0;
   ordered_json stages = ordered_json::object();

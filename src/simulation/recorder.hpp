@@ -28,6 +28,9 @@ class Recorder {
   /// step at or after each frame time. Steps are never cut to hit a frame time.
   void follow(const Simulation<Dim>& simulation);
 
+  /// A frame of where the simulation stands, unless it has one or the scene wants none.
+  void keep(const Simulation<Dim>& simulation);
+
   /// Waits for the frames, writes run.json and makes a film of the pictures.
   /// status   "done" | "stopped" | "unstable"
   void finish(const Simulation<Dim>& simulation, const std::string& status, const std::string& message = {});
@@ -50,6 +53,7 @@ class Recorder {
   std::chrono::steady_clock::time_point start_;
   Instruments<Dim> instruments_;
   std::uint64_t next_frame_ = 0, n_frames_ = 0;
+  std::uint64_t last_frame_at_ = 0;             ///< number of steps
   std::atomic<std::uint64_t> n_committed_ = 0;  ///< frames that stand on disk
   std::vector<SeriesEntry> particle_series_, smoke_series_;
   std::map<std::string, std::uint64_t> limiters_;

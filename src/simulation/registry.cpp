@@ -127,7 +127,9 @@ void add_snow(Registry& r) {
       .number<&F::friction_xi>("friction_xi", "m/s^2", from(0, 1e9), "Voellmy coefficient; 0: no turbulent part", "R18")
       .words<&F::friction_acts_on>("friction_acts_on", {"column", "base", "none"}, "which particles feel it", "R18")
       .number<&F::compaction_time>("compaction_time", "s", from(0, 1e6),
-                                   "in which entrained snow takes on the flow's density; 0: off", "R20");
+                                   "in which entrained snow takes on the flow's density; 0: off", "R20")
+      .words<&F::neighbour_search>("neighbour_search", {"cell_list", "kd_tree"},
+                                   "how neighbours are looked for; the result is the same to the bit");
 
   using C = CoverSection;
   Rows<&Scene::cover>(r, "cover", "the resting snow cover, as particles")
@@ -174,14 +176,17 @@ void add_smoke(Registry& r) {
 
   using M = SmokeSection;
   Rows<&Scene::smoke>(r, "smoke", "snow smoke in the air at the start; there may be several")
-      .words<&M::shape>("shape", {"box", "ball"}, "what it fills")
+      .words<&M::shape>("shape", {"box", "ball", "polygon"},
+                        "what it fills; polygon: in the x-z plane, in 3D over the whole breadth")
       .number<&M::density>("density", "kg/m^3", above(0, 1e4), "rho_smoke", "Eq. (7)")
       .with("shape", {"box"})
       .number<&M::lower>("lower", "m", position, "lower corner")
       .number<&M::upper>("upper", "m", position, "upper corner")
       .with("shape", {"ball"})
       .number<&M::center>("center", "m", position, "middle of the ball")
-      .number<&M::radius>("radius", "m", extent, "of the ball");
+      .number<&M::radius>("radius", "m", extent, "of the ball")
+      .with("shape", {"polygon"})
+      .number<&M::points>("points", "m", position, "corners (x, z) one after the other");
 
   using X = CouplingSection;
   Rows<&Scene::coupling>(r, "coupling", "what dense flow and smoke exchange where they overlap")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "grid/open_fractions.hpp"
 #include "simulation/scene_vectors.hpp"
@@ -19,6 +20,19 @@ bool inside(const std::vector<std::array<double, 2>>& corners, double x, double 
     if ((zi > z) != (zj > z) && x < xi + (xj - xi) * (z - zi) / (zj - zi)) in = !in;
   }
   return in;
+}
+
+/// Distance of (x, z) from the rim of a polygon [m], positive inside.
+double depth_inside(const std::vector<std::array<double, 2>>& corners, double x, double z) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
+    const Vec<2> start(corners[j][0], corners[j][1]), edge = Vec<2>(corners[i][0], corners[i][1]) - start;
+    const Vec<2> from_start = Vec<2>(x, z) - start;
+    const double length = edge.squaredNorm();
+    const double along = length > 0 ? std::clamp(from_start.dot(edge) / length, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (from_start - along * edge).norm());
+  }
+  return inside(corners, x, z) ? nearest : -nearest;
 }
 
 /// Whether the cover lies anywhere along the ground from `from` to `to` [m].
@@ -105,14 +119,19 @@ double filled_share(const Box<Dim>& box, const MacGrid<Dim>& grid, const Index<D
   return (upper - lower).cwiseMax(0).prod() / grid.cell_volume();
 }
 
-/// Share of a cell that a ball fills, its surface taken as plane within the cell.
+/// Share of a cell that a shape of smoke fills, the surface of balls and polygons taken as plane within the cell.
 template <int Dim>
-double filled_share(const Vec<Dim>& center, double radius, const MacGrid<Dim>& grid, const Index<Dim>& cell) {
+double filled_share(const SmokeSection& shape, const MacGrid<Dim>& grid, const Index<Dim>& cell) {
+  if (shape.shape == "box") return filled_share<Dim>(box_of<Dim>(shape.lower, shape.upper), grid, cell);
+  const auto depth_at = [&](const Vec<Dim>& x) {
+    if (shape.shape == "polygon") return depth_inside(shape.points, x[0], x[up_axis<Dim>]);
+    return shape.radius - (x - vector_or<Dim>(shape.center)).norm();
+  };
   std::array<double, std::size_t{1} << Dim> depth;
   for (std::size_t corner = 0; corner < depth.size(); ++corner) {
     Index<Dim> node = cell;
     for (int axis = 0; axis < Dim; ++axis) node[axis] += static_cast<int>((corner >> axis) & 1);
-    depth[corner] = radius - (grid.node(node) - center).norm();
+    depth[corner] = depth_at(grid.node(node));
   }
   return open_fraction<Dim>(depth);
 }
@@ -163,12 +182,8 @@ Field<Dim> initial_smoke(const Scene& scene, const Suspension<Dim>& suspension) 
   const MacGrid<Dim>& grid = suspension.grid();
   Field<Dim> smoke(grid.cells);
   for (const SmokeSection& shape : scene.smoke) {
-    const bool ball = shape.shape == "ball";
-    const Vec<Dim> center = vector_or<Dim>(shape.center);
-    const Box<Dim> box = box_of<Dim>(shape.lower, shape.upper);
     for_each_index<Dim>(grid.cells, [&](const Index<Dim>& cell) {
-      const double share =
-          ball ? filled_share<Dim>(center, shape.radius, grid, cell) : filled_share<Dim>(box, grid, cell);
+      const double share = filled_share<Dim>(shape, grid, cell);
       if (share > 0) smoke[cell] = share * shape.density * suspension.ground().volume()[cell];
     });
   }

@@ -48,6 +48,7 @@ ExitCode step_to_end(Simulation<Dim>& simulation, Recorder<Dim>& recorder, const
       simulation.step();
     } catch (const Error& failure) {
       if (failure.code() != ExitCode::unstable) throw;
+      recorder.keep(simulation);
       recorder.finish(simulation, "unstable", failure.what());
       throw;
     }

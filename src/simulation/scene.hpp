@@ -67,11 +67,12 @@ struct ReleaseSection {
 
 /// Smoke in the air at the start.
 struct SmokeSection {
-  std::string shape = "box";         ///< "box" | "ball"
-  double density = 3;                ///< rho_smoke [kg m^-3]
-  std::vector<double> lower, upper;  ///< corners of the box [m]
-  std::vector<double> center;        ///< of the ball [m]
-  double radius = 1;                 ///< of the ball [m]
+  std::string shape = "box";                  ///< "box" | "ball" | "polygon"
+  double density = 3;                         ///< rho_smoke [kg m^-3]
+  std::vector<double> lower, upper;           ///< corners of the box [m]
+  std::vector<double> center;                 ///< of the ball [m]
+  double radius = 1;                          ///< of the ball [m]
+  std::vector<std::array<double, 2>> points;  ///< corners (x, z) of the polygon [m]
 };
 
 struct DenseFlowSection {
@@ -83,12 +84,13 @@ struct DenseFlowSection {
   double density_tolerance = 5e-4;     ///< mean compression allowed
   double divergence_tolerance = 1e-1;  ///< mean rate of compression allowed, in percent of the volume a step
   int max_iterations = 100;
-  double cfl = 0.4;                         ///< of the spacing
-  double sound_speed = 0;                   ///< [m s^-1] (wcsph); 0: ten times the largest speed expected
-  double friction_mu = 0.155;               ///< Coulomb coefficient
-  double friction_xi = 4000;                ///< Voellmy turbulent coefficient [m s^-2]; 0: no turbulent part
-  std::string friction_acts_on = "column";  ///< "column" | "base" | "none"
-  double compaction_time = 0.1;             ///< [s]; 0: off (R20)
+  double cfl = 0.4;                            ///< of the spacing
+  double sound_speed = 0;                      ///< [m s^-1] (wcsph); 0: ten times the largest speed expected
+  double friction_mu = 0.155;                  ///< Coulomb coefficient
+  double friction_xi = 4000;                   ///< Voellmy turbulent coefficient [m s^-2]; 0: no turbulent part
+  std::string friction_acts_on = "column";     ///< "column" | "base" | "none"
+  double compaction_time = 0.1;                ///< [s]; 0: off (R20)
+  std::string neighbour_search = "cell_list";  ///< "cell_list" | "kd_tree"
 };
 
 struct CoverSection {

@@ -31,7 +31,7 @@ class Checker {
     for (std::size_t i = 0; i < scene_.release.size(); ++i)
       release(numbered("release", i, scene_.release.size()), scene_.release[i]);
     for (std::size_t i = 0; i < scene_.smoke.size(); ++i)
-      box_or_ball(numbered("smoke", i, scene_.smoke.size()), scene_.smoke[i]);
+      shape(numbered("smoke", i, scene_.smoke.size()), scene_.smoke[i]);
     if (scene_.suspension) lid(*scene_.suspension);
     if (scene_.cover && scene_.cover->to >= 0)
       ordered("cover.from", scene_.cover->from, "cover.to", scene_.cover->to, true);
@@ -87,23 +87,16 @@ class Checker {
   }
 
   void release(const std::string& section, const ReleaseSection& release) {
-    const std::string shape = section + ".shape", points = section + ".points";
-    if (!report_.good({shape})) return;
-    if (release.shape == "slab") {
-      if (!scene_.terrain && report_.good({"terrain"}))
-        add(shape, "\"slab\" needs the section [terrain], which the scene does not have");
-    } else if (release.shape == "polygon") {
-      if (report_.good({points}) && release.points.size() < 3)
-        add(points, fmt::format("got {} points, expected at least 3 (x, z)", release.points.size()));
-      for (const auto& [x, z] : release.points) inside_domain(points, {x, z}, {x, z}, {0, dim() - 1});
-    } else {
-      box_or_ball(section, release);
-    }
+    if (release.shape != "slab") return shape(section, release);
+    if (!scene_.terrain && report_.good({section + ".shape", "terrain"}))
+      add(section + ".shape", "\"slab\" needs the section [terrain], which the scene does not have");
   }
 
+  /// A box, a ball or a polygon.
   template <class Shaped>
-  void box_or_ball(const std::string& section, const Shaped& shaped) {
+  void shape(const std::string& section, const Shaped& shaped) {
     const std::string low = section + ".lower", high = section + ".upper", center = section + ".center";
+    const std::string points = section + ".points";
     if (!report_.good({section + ".shape", "scene.dim"})) return;
     std::vector<std::size_t> axes(dim());
     std::iota(axes.begin(), axes.end(), std::size_t{0});
@@ -111,6 +104,10 @@ class Checker {
       if (!corners(section, shaped.lower, shaped.upper)) return;
       inside_domain(low, shaped.lower, shaped.lower, axes);
       inside_domain(high, shaped.upper, shaped.upper, axes);
+    } else if (shaped.shape == "polygon") {
+      if (report_.good({points}) && shaped.points.size() < 3)
+        add(points, fmt::format("got {} points, expected at least 3 (x, z)", shaped.points.size()));
+      for (const auto& [x, z] : shaped.points) inside_domain(points, {x, z}, {x, z}, {0, dim() - 1});
     } else if (shaped.center.empty()) {
       if (report_.good({center})) add(center, fmt::format("missing, expected a list of {} lengths", dim()));
     } else {

@@ -99,6 +99,17 @@ class Warner {
                         "0 s there lets it keep its own",
                         number_text(density), number_text(time)));
     }
+    if (!scene_.suspension || !scene_.dense_flow) return;
+    double gas = scene_.suspension->air_density;
+    for (const SmokeSection& smoke : scene_.smoke) gas = std::max(gas, scene_.suspension->air_density + smoke.density);
+    for (std::size_t i = 0; i < scene_.release.size(); ++i) {
+      const double own = scene_.release[i].density, density = own > 0 ? own : scene_.dense_flow->density;
+      if (density < gas)
+        add(own > 0 ? numbered("release", i, scene_.release.size()) + ".density" : "dense_flow.density",
+            fmt::format("snow lighter than the air with its smoke, {} kg/m^3: the air throws it about, and the run may "
+                        "end as unstable",
+                        number_text(gas)));
+    }
   }
 
   void obstacles() {
@@ -123,6 +134,8 @@ class Warner {
     const SuspensionSection& air = *scene_.suspension;
     if (air.wall == "no_slip" && air.viscosity == 0)
       add("suspension.wall", "has no effect on air without viscosity: suspension.viscosity is 0");
+    if (air.scheme == "reflection" && air.cfl > 10)
+      add("suspension.cfl", "the reflection scheme can gain energy in steps of more than ten cells");
     if (air.frozen) {
       constexpr std::string_view none = "has no effect on air that is frozen: suspension.frozen is true";
       if (air.viscosity > 0) add("suspension.viscosity", none);

@@ -105,6 +105,7 @@ std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Di
   options.no_slip = section.wall == "no_slip";
   options.pressure = {section.density_tolerance, section.divergence_tolerance, section.max_iterations};
   options.sound_speed = section.sound_speed;
+  if (section.neighbour_search == "kd_tree") options.neighbour_search = NeighbourSearch::kd_tree;
   if (options.solver == DenseSolver::wcsph && options.sound_speed == 0)
     options.sound_speed = 10 * std::sqrt(2 * make_gravity<Dim>(scene).norm() * walls.domain.size()[up_axis<Dim>]);
   std::optional<DenseFlow<Dim>> dense(options);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -54,46 +55,55 @@ Simulation<Dim>::Simulation(const Scene& scene)
   if (suspension_ && dense_)
     n_interior_ = interior_number_density<Dim>(dense_->options().spacing(), dense_->options().support_radius);
   n_dense_initial_ = dense_ ? dense_->particles.size() : 0;
+  if (dense_)
+    for (const Vec<Dim>& v : dense_->particles.velocity) first_speed_ = std::max(first_speed_, v.norm());
+  if (suspension_) first_speed_ = std::max(first_speed_, suspension_->max_speed());
   masses_.initial = dense_mass() + cover_mass() + smoke_mass();
 }
 
 // Paper Fig. 3.
 template <int Dim>
-void Simulation<Dim>::step() {
-  const auto timed = stages_.time("step");
+void Simulation<Dim>::try_step(const TimeStep& step) {
   report_ = {};
-  choose_time_step();
+  report_.dt = dt_ = step.dt;
+  report_.limiter = step.limiter;
+  report_.n_rejected = std::exchange(back_off_.n_rejected, 0);
   predict_velocities();  // gravity: the f of Eq. (2), of the smoke by Eqs. (7)-(9)
   exchange_layers();     // 1: Secs. 4.1, 4.4.1, Eqs. (5), (6), (10)-(13)
   advance_dense_flow();  // 2: Secs. 3.2, 4.3, Eq. (4)
   advance_suspension();  // 3: Secs. 3.1, 4.2, Eqs. (1)-(3), the swirl of Eq. (8)
   entrain_cover();       // 4: Sec. 4.4.2, Eqs. (14)-(16)
   remove_what_left();
+  if (spoil_trial_) spoil_trial_(*this);
+  check_state();
   time_ += dt_;
   ++n_steps_;
-  check_state();
+  back_off_.count_good_step();
 }
 
 /// One step for all layers, from the tightest limit.
 template <int Dim>
-void Simulation<Dim>::choose_time_step() {
+typename Simulation<Dim>::TimeStep Simulation<Dim>::choose_time_step() const {
+  TimeStep step{scene_.scene.max_step, "longest step"};
   const auto limit = [&](double dt, std::string_view name) {
-    if (dt < report_.dt) report_.dt = dt, report_.limiter = name;
+    if (dt < step.dt) step = {dt, name};
   };
-  report_.dt = scene_.scene.max_step, report_.limiter = "longest step";
   if (dense_ && !dense_->particles.empty()) {
     limit(dense_->time_step_limit(scene_.dense_flow->cfl, gravity_.norm()),
           dense_->options().solver == DenseSolver::wcsph ? "particles or sound" : "particles");
   }
   if (suspension_) {
     const double speed = suspension_->max_speed();
-    if (speed > 0) limit(scene_.suspension->cfl * suspension_->grid().dx / speed, "air");
+    const double way = scene_.suspension->cfl * suspension_->grid().dx, g = gravity_.norm();
+    if (speed > 0) limit(way / speed, "air");
+    if (g > 0 && !scene_.suspension->frozen) limit(std::sqrt(way / g), "air");  // for a start from rest
   }
-  dt_ = report_.dt;
-  if (!(dt_ >= shortest_step))
+  if (!(step.dt >= shortest_step))
     throw Error(ExitCode::unstable,
-                fmt::format("unstable: the time step fell to {:.3g} s (limit: {}) in step {} at t = {:.6g} s", dt_,
-                            report_.limiter, n_steps_ + 1, time_));
+                fmt::format("unstable: the time step fell to {:.3g} s (limit: {}) in step {} at t = {:.6g} s", step.dt,
+                            step.limiter, n_steps_ + 1, time_));
+  if (back_off_.halvings > 0) step = {step.dt * back_off_.factor(), "rejection"};
+  return step;
 }
 
 /// Gravity on both media; the later stages add none.
@@ -224,7 +234,7 @@ void Simulation<Dim>::remove_what_left() {
 template <int Dim>
 void Simulation<Dim>::check_state() const {
   const StepStamp stamp{n_steps_, time_, dt_};
-  const double fastest = runaway_speed(walls_.domain.size().norm(), gravity_.norm());
+  const double fastest = runaway_speed(walls_.domain.size().norm(), gravity_.norm(), first_speed_);
   if (dense_) check_particles<Dim>(dense_->particles, fastest, stamp);
   if (suspension_) check_suspension<Dim>(*suspension_, fastest, stamp);
 }
@@ -268,6 +278,7 @@ std::vector<std::pair<std::string, std::size_t>> Simulation<Dim>::memory() const
     parts.emplace_back("coupling",
                        region_.bytes() + bytes(exchange_.on_particles.momentum) + bytes(exchange_.on_particles.mass));
   if (entrainment_) parts.emplace_back("entrainment", entrainment_->bytes());
+  if (saved_.bytes() > 0) parts.emplace_back("saved_state", saved_.bytes());
   return parts;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The simulation: all layers of a scene, and the step that moves them on (paper Fig. 3).
 
-#include <memory>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -10,6 +10,7 @@
 #include "coupling/ground_surface.hpp"
 #include "coupling/overlap.hpp"
 #include "simulation/ledger.hpp"
+#include "simulation/saved_state.hpp"
 #include "simulation/setup.hpp"
 
 namespace spindrift {
@@ -21,13 +22,16 @@ class Simulation {
   /// Throws Error(bad_input): numbers that fit no scene.   Pre: the scene passed the reader's checks, scene.dim == Dim.
   explicit Simulation(const Scene& scene);
 
-  /// One step of the paper's flowchart.
-  /// Throws Error(unstable) naming field, id or cell, place, step and dt: a value that is not finite, a mass that is
-  /// not positive, a runaway speed. The state is then that of the failed step; what was written before stands.
+  /// One step of the paper's flowchart. A trial that fails - a value that is not finite, a mass that is not positive, a
+  /// runaway speed - is taken back, and the step tried again with half the time step, down to 1/64. That stays in
+  /// force, and is doubled again after every 32 steps. Throws Error(unstable) naming field, id or cell, place, step and
+  /// dt, where the shortest trial failed as well, or the limit of dt is under 0.1 us. The simulation then stands at the
+  /// end of the last good step.
   void step();
 
   double time() const { return time_; }
   std::uint64_t n_steps() const { return n_steps_; }
+  const BackOff& back_off() const { return back_off_; }
   bool done() const { return time_ >= scene_.scene.end_time; }
 
   const Scene& scene() const { return scene_; }
@@ -39,7 +43,6 @@ class Simulation {
   /// 1 for particles of the overlap region in the last step, one a particle; empty where the
   /// scene lacks dense flow or suspension. It needs no coupling: the core of the air is the snow outside overlap.
   const std::vector<std::uint8_t>& overlap() const { return overlap_; }
-  const Exchange<Dim>& exchange() const { return exchange_; }
 
   const StepReport<Dim>& report() const { return report_; }
   const MassLedger& masses() const { return masses_; }
@@ -52,11 +55,25 @@ class Simulation {
   /// (dense + cover + smoke + outflow + deposit) / initial - 1.
   double mass_error() const;
   /// Bytes of state and scratch, by part, of the parts that the scene has: "terrain", "dense_flow", "cover",
-  /// "suspension", "core", "coupling", "entrainment".
+  /// "suspension", "core", "coupling", "entrainment", "saved_state".
   std::vector<std::pair<std::string, std::size_t>> memory() const;
 
+  /// All that steers the steps to come, copied into buffers that are reused, and back: the same bits follow.
+  void save(SavedState<Dim>& state) const;
+  void restore(const SavedState<Dim>& state);
+
  private:
-  void choose_time_step();
+  struct TimeStep {
+    double dt;  ///< [s]
+    std::string_view limiter;
+  };
+
+  template <int>
+  friend struct FaultInjection;  // of the tests
+
+  void try_step(const TimeStep& step);
+  void go_back();
+  TimeStep choose_time_step() const;
   void predict_velocities();
   void exchange_layers();
   void advance_dense_flow();
@@ -84,7 +101,8 @@ class Simulation {
   OverlapRegion<Dim> region_;
   Exchange<Dim> exchange_;
   CoreCells<Dim> core_;
-  double n_interior_ = 0;  ///< number density inside the dense flow
+  double n_interior_ = 0;   ///< number density inside the dense flow
+  double first_speed_ = 0;  ///< largest of snow and air at the start [m s^-1]
 
   std::optional<Entrainment<Dim>> entrainment_;
 
@@ -93,6 +111,9 @@ class Simulation {
   std::size_t n_dense_initial_ = 0;
   StepReport<Dim> report_;
   MassLedger masses_;
+  BackOff back_off_;
+  SavedState<Dim> saved_;                         ///< of the last good step, or up to some steps before it
+  std::function<void(Simulation&)> spoil_trial_;  ///< puts a fault in; empty but in tests
   Stages stages_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -29,6 +30,7 @@ std::string fault(const Particles<Dim>& p, std::size_t i, double fastest) {
   if (!p.velocity[i].allFinite()) return "velocity is not finite";
   if (!(p.mass[i] > 0)) return fmt::format("mass is {:.3g} kg", p.mass[i]);
   if (!(p.volume[i] > 0)) return fmt::format("volume is {:.3g}", p.volume[i]);
+  if (!std::isfinite(p.mass[i] + p.volume[i] + p.pressure[i])) return "mass, volume or pressure is not finite";
   if (!(p.velocity[i].norm() <= fastest))
     return fmt::format("speed {:.4g} m/s is a runaway (limit {:.4g})", p.velocity[i].norm(), fastest);
   return {};
@@ -36,14 +38,15 @@ std::string fault(const Particles<Dim>& p, std::size_t i, double fastest) {
 
 }  // namespace
 
-double runaway_speed(double length, double gravity) {
-  return std::max(300.0, 10 * std::sqrt(2 * gravity * length));
+double runaway_speed(double length, double gravity, double first_speed) {
+  return std::max({300.0, 10 * first_speed, 10 * std::sqrt(2 * gravity * length)});
 }
 
 template <int Dim>
 void check_particles(const Particles<Dim>& p, double fastest, const StepStamp& stamp) {
   const double worst = parallel_max(p.size(), 0, [&](std::size_t i) {
-    const bool sound = p.position[i].allFinite() && p.mass[i] > 0 && p.volume[i] > 0 && std::isfinite(p.mass[i]);
+    const bool sound = p.position[i].allFinite() && p.mass[i] > 0 && p.volume[i] > 0 &&
+                       std::isfinite(p.mass[i] + p.volume[i] + p.pressure[i]);
     return sound ? p.velocity[i].squaredNorm() : std::numeric_limits<double>::quiet_NaN();
   });
   if (worst <= fastest * fastest) return;
@@ -56,7 +59,11 @@ void check_particles(const Particles<Dim>& p, double fastest, const StepStamp& s
 
 template <int Dim>
 void check_suspension(const Suspension<Dim>& suspension, double fastest, const StepStamp& stamp) {
-  if (suspension.max_speed() <= fastest && std::isfinite(suspension.total_smoke())) return;
+  const Field<Dim>& smoke = suspension.smoke_mass();
+  const double total = parallel_sum(smoke.size(), 0.0, [&](std::size_t cell) {
+    return smoke[cell] >= 0 ? smoke[cell] : std::numeric_limits<double>::quiet_NaN();
+  });
+  if (suspension.max_speed() <= fastest && std::isfinite(total)) return;
   const MacGrid<Dim>& grid = suspension.grid();
   for (int axis = 0; axis < Dim; ++axis) {
     const auto& u = suspension.velocity()[axis];
@@ -66,10 +73,9 @@ void check_suspension(const Suspension<Dim>& suspension, double fastest, const S
       fail(fmt::format("air velocity at {}: component {} is {:.4g} m/s", place<Dim>(x), axis, u[f]), stamp);
     }
   }
-  for (std::size_t c = 0; c < suspension.smoke_mass().size(); ++c)
-    if (!(suspension.smoke_mass()[c] >= 0) || !std::isfinite(suspension.smoke_mass()[c]))
-      fail(fmt::format("smoke at {} is {:.4g} kg", place<Dim>(grid.cell_centre(unflat<Dim>(c, grid.cells))),
-                       suspension.smoke_mass()[c]),
+  for (std::size_t c = 0; c < smoke.size(); ++c)
+    if (!(smoke[c] >= 0) || !std::isfinite(smoke[c]))
+      fail(fmt::format("smoke at {} is {:.4g} kg", place<Dim>(grid.cell_centre(unflat<Dim>(c, grid.cells))), smoke[c]),
            stamp);
 }
 

@@ -71,7 +71,8 @@ void DenseFlow<Dim>::sort_and_find_neighbours(const Walls<Dim>& walls, const Cov
     cells_.build(particles);
   }
   auto timed = stages.time("dense_flow.neighbours");
-  neighbours_.find(particles, cells_, walls, wall_kernel_, cover, options_.no_slip && options_.viscosity > 0);
+  neighbours_.find(particles, cells_, walls, wall_kernel_, cover, options_.no_slip && options_.viscosity > 0,
+                   options_.neighbour_search);
 }
 
 template <int Dim>

@@ -23,6 +23,7 @@ struct DenseFlowOptions {
   bool no_slip = false;      ///< walls and cover hold the snow by viscosity
   PressureOptions pressure;  ///< of dfsph
   double sound_speed = 0;    ///< of wcsph [m s^-1]; positive there
+  NeighbourSearch neighbour_search = NeighbourSearch::cell_list;
 
   double spacing() const { return support_radius / 2; }
 };

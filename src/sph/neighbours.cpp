@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
+#include "sph/kd_tree.hpp"
 #include "sph/kernels.hpp"
 #include "sph/lanes.hpp"
 
@@ -20,11 +23,13 @@ struct Neighbours<Dim>::Input {
   const CoverView<Dim>& cover;
   CubicSpline<Dim> kernel;
   bool no_slip;
+  std::optional<Tree<Dim>> tree;
 };
 
 template <int Dim>
 void Neighbours<Dim>::find(const Particles<Dim>& particles, const CellList<Dim>& cells, const Walls<Dim>& walls,
-                           const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip) {
+                           const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip,
+                           NeighbourSearch search) {
   SPINDRIFT_CHECK(!cover.present() || cover.surface_normal->size() == cover.particles->size());
   const std::size_t n = particles.size();
   blocks_.resize((n + block_size - 1) / block_size);
@@ -34,8 +39,10 @@ void Neighbours<Dim>::find(const Particles<Dim>& particles, const CellList<Dim>&
   boundary_.resize(n);
   gradient_sum_.resize(n);
   if (no_slip) no_slip_.resize(n);
-  const Input input{particles, cells, walls, wall_kernel, cover, CubicSpline<Dim>(wall_kernel.support_radius()),
-                    no_slip};
+  const Points<Dim> points{particles.position};
+  Input input{particles, cells, walls, wall_kernel, cover, CubicSpline<Dim>(wall_kernel.support_radius()), no_slip, {}};
+  if (search == NeighbourSearch::kd_tree)
+    input.tree.emplace(Dim, points, nanoflann::KDTreeSingleIndexAdaptorParams(tree_leaf));
   auto body = [&](std::size_t begin, std::size_t end) { find_block(begin, end, input); };
   parallel_blocks(n, block_size, body);
 }
@@ -46,26 +53,50 @@ void Neighbours<Dim>::find_block(std::size_t begin, std::size_t end, const Input
   const Particles<Dim>& particles = input.particles;
   std::size_t c = input.cells.cell_of(static_cast<std::uint32_t>(begin));
   for (std::size_t i = begin; i < end; ++c) {
-    block.candidate.clear();
-    for (const auto& run : input.cells.runs(c))
-      for (std::uint32_t j = run.begin; j < run.end; ++j) block.candidate.push_back(j);
-    const std::size_t n = block.candidate.size();
-    block.volume.resize(n);
-    block.distance_squared.resize(n);
-    block.hit.resize(n);
-    block.value.resize(n);
-    for (auto& x : block.x) x.resize(n);
-    for (std::size_t m = 0; m < n; ++m) {
-      const std::uint32_t j = block.candidate[m];
-      block.volume[m] = particles.volume[j];
-      for (int k = 0; k < Dim; ++k) block.x[k][m] = particles.position[j][k];
+    if (!input.tree) {
+      block.candidate.clear();
+      for (const auto& run : input.cells.runs(c))
+        for (std::uint32_t j = run.begin; j < run.end; ++j) block.candidate.push_back(j);
+      block.gather(particles);
     }
     const auto cover_runs =
         input.cover.present() ? input.cover.cells->runs_near(particles.position[i]) : typename CellList<Dim>::Runs{};
     for (const std::size_t cell_end = std::min<std::size_t>(end, input.cells.cell(c).end); i < cell_end; ++i) {
+      if (input.tree) {
+        find_candidates(i, block, input);
+        block.gather(particles);
+      }
       find_row(i, block, input);
       add_boundary(i, cover_runs, input);
     }
+  }
+}
+
+/// In ascending order, which is also that of the cell list's runs. The margin is for places on the rim: find_row
+/// decides.
+template <int Dim>
+void Neighbours<Dim>::find_candidates(std::size_t i, Block& block, const Input& input) {
+  constexpr double margin = 1 + 1e-9;
+  const double h = input.kernel.h;
+  input.tree->radiusSearch(input.particles.position[i].data(), h * h * margin, block.found,
+                           nanoflann::SearchParams(0, 0, false));
+  block.candidate.clear();
+  for (const auto& [j, squared] : block.found) block.candidate.push_back(j);
+  std::ranges::sort(block.candidate);
+}
+
+template <int Dim>
+void Neighbours<Dim>::Block::gather(const Particles<Dim>& particles) {
+  const std::size_t n = candidate.size();
+  volume.resize(n);
+  distance_squared.resize(n);
+  hit.resize(n);
+  value.resize(n);
+  for (auto& coordinate : x) coordinate.resize(n);
+  for (std::size_t m = 0; m < n; ++m) {
+    const std::uint32_t j = candidate[m];
+    volume[m] = particles.volume[j];
+    for (int k = 0; k < Dim; ++k) x[k][m] = particles.position[j][k];
   }
 }
 
@@ -169,6 +200,7 @@ std::size_t Neighbours<Dim>::Block::bytes() const {
   std::size_t n = spindrift::bytes(index, candidate, hit) + spindrift::bytes(gradient, value) +
                   spindrift::bytes(volume, distance_squared);
   for (const auto& coordinate : x) n += spindrift::bytes(coordinate);
+  n += spindrift::bytes(found);
   return n;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/vec.hpp"
@@ -22,6 +23,9 @@ struct CoverView {
   const std::vector<Vec<Dim>>* surface_normal = nullptr;  ///< n_c, of the smoothed surface at each particle
   bool present() const { return particles != nullptr && !particles->empty(); }
 };
+
+/// How the pairs are looked for; what is found is the same to the bit.
+enum class NeighbourSearch { cell_list, kd_tree };
 
 /// The pairs (i, j) with 0 <= |x_i - x_j| < h, i != j, in rows; all arrays are in the order of the sorted particles.
 template <int Dim>
@@ -43,8 +47,10 @@ class Neighbours {
   /// single particles that stand out of the cover are roughness, which the friction law stands for. Cover and walls are
   /// mirrors to the solvers (mirrored velocity, same pressure), so that one vector b stands for all of them. no_slip:
   /// also finds the viscous coefficient of the boundary, c = sum_c 2 V_c |dW/dr| / r + the walls' (WallKernel).
+  /// search: of the particles; the cover, which rests, is always looked up in its own cell list.
   void find(const Particles<Dim>& particles, const CellList<Dim>& cells, const Walls<Dim>& walls,
-            const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip);
+            const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip,
+            NeighbourSearch search = NeighbourSearch::cell_list);
 
   std::size_t size() const { return volume_sum_.size(); }
   Row row(std::size_t i) const {
@@ -75,10 +81,13 @@ class Neighbours {
     std::vector<double> volume, distance_squared;  ///< of the candidates
     std::vector<std::uint32_t> candidate, hit;     ///< their numbers; which of them are neighbours of one particle
     std::vector<float> value;                      ///< W / sigma of each hit
+    std::vector<std::pair<std::uint32_t, double>> found;  ///< by the tree, scratch; empty with the cell list
+    void gather(const Particles<Dim>& particles);         ///< what the candidates are
     std::size_t bytes() const;
   };
   struct Input;
   void find_block(std::size_t begin, std::size_t end, const Input& input);
+  void find_candidates(std::size_t i, Block& block, const Input& input);
   void find_row(std::size_t i, Block& block, const Input& input);
   void add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input);
 

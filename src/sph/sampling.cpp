@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nanoflann.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "sph/kd_tree.hpp"
 
 namespace spindrift {
 namespace {
@@ -19,22 +19,6 @@ constexpr double least_pair = 0.7;                   // of d: closer pairs are t
 constexpr double least_cos_slope = 0.1;              // steeper ground carries no cover
 constexpr double repulsion_radius = 1.1;             // of d: just above the spacing wanted, else the places clump
 constexpr double first_step = 1.2, last_step = 0.2;  // of d: the push of a neighbour at no distance
-
-template <int Dim>
-struct Points {
-  std::span<const Vec<Dim>> positions;
-  std::size_t kdtree_get_point_count() const { return positions.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return positions[i][static_cast<Eigen::Index>(axis)]; }
-  template <class Bounds>
-  bool kdtree_get_bbox(Bounds&) const {
-    return false;
-  }
-};
-
-template <int Dim>
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points<Dim>>, Points<Dim>, Dim,
-                                                 std::uint32_t>;
-constexpr std::size_t tree_leaf = 16;
 
 /// Neighbours of a place: number and squared distance [m^2].
 using Found = std::vector<std::pair<std::uint32_t, double>>;

@@ -258,6 +258,24 @@ TEMPLATE_TEST_CASE_SIG("a step leaves nothing behind but the pressure", "[projec
   CHECK(std::equal(p.values().begin(), p.values().end(), q.values().begin()));
 }
 
+TEMPLATE_TEST_CASE_SIG("a guess that is set is all that is left of a solve that went astray", "[projection]",
+                       ((int Dim), Dim), 2, 3) {
+  const PressureCase<Dim> good = slope_case<Dim>(cube<Dim>(12), 3);
+  PressureProjection<Dim> used(good.grid, good.sides), unused(good.grid, good.sides);
+  PressureCase<Dim> c = good;
+  c.project(used);
+  const std::vector<double> guess = used.guess();
+  c.density[cube<Dim>(11)] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(c.project(used).converged);
+  used.set_guess(guess);
+  unused.set_guess(guess);
+  PressureCase<Dim> again = good, fresh = good;
+  again.for_each_face([&](int axis, const Index<Dim>& face) { fresh.u[axis][face] = again.u[axis][face] *= 1.5; });
+  CHECK(again.project(used, {1e-10, 100}).converged);
+  fresh.project(unused, {1e-10, 100});
+  CHECK(same_bits<Dim>(again.u, fresh.u));
+}
+
 TEMPLATE_TEST_CASE_SIG("the same bits with any number of threads", "[projection]", ((int Dim), Dim), 2, 3) {
   const auto run = [](int threads) {
     const ThreadLimit limit(threads);

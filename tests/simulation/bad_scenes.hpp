@@ -196,6 +196,12 @@ inline std::vector<BadScene> bad_scenes() {
                "a.toml:5:2: obstacle.upper: missing, expected a list of 2 lengths"},
       BadScene{head + "[smoke]\nlower = [0, 0]\nupper = [1, 1]\n",
                "a.toml:5:2: smoke: needs the section [suspension], which the scene does not have"},
+      BadScene{head + "[suspension]\n[smoke]\nshape = \"polygon\"\npoints = [[0, 0], [1, 1]]\n",
+               "a.toml:8:10: smoke.points: got 2 points, expected at least 3 (x, z)"},
+      BadScene{
+          head + "[suspension]\n[smoke]\nshape = \"polygon\"\npoints = [[0, 0], [1, 1], [1, 60]]\n",
+          "a.toml:8:10: smoke.points: reaches 60 along z, expected it inside the domain, whose domain.upper stands "
+          "at a.toml:4:9"},
       BadScene{head + "[suspension]\nwall = \"no_slip\"\nlid = [1, 0]\n",
                "a.toml:7:7: suspension.lid: contradicts domain.top = \"open\" at a.toml:2:2: a lid closes the top"},
       BadScene{snow + "density = -1\nviscosity = -1\n[cover]\nto = 1\nfrom = 2\ndepth = 0\n",

@@ -106,6 +106,25 @@ TEST_CASE("Physics of strength zero and absent physics end in the same bits", "[
         digest_of(std::string(small_avalanche), {"entrainment.rate=0"}));
 }
 
+TEST_CASE("A copy of the state holds what can change, and reuses its buffers", "[absence]") {
+  const auto copy_of = [](const std::vector<std::string>& left_out) {
+    const Simulation<2> simulation = some_steps(without(small_avalanche, left_out));
+    SavedState<2> state;
+    simulation.save(state);
+    const std::uint64_t before = n_allocations;
+    simulation.save(state);
+    CHECK(n_allocations == before);
+    return state;
+  };
+  const SavedState<2> whole = copy_of({}), snow = copy_of(parts[0].sections), at_rest = copy_of({"entrainment"});
+  CHECK(whole.suspension->bytes() > 0);
+  CHECK(whole.cover->bytes() > 0);
+  CHECK(!snow.suspension);
+  CHECK(!at_rest.cover);
+  CHECK(held(some_steps(std::string(small_avalanche)), "saved_state") >
+        held(some_steps(without(small_avalanche, parts[0].sections)), "saved_state") + whole.suspension->bytes() / 2);
+}
+
 TEST_CASE("A warm step allocates nothing", "[absence]") {
   const ThreadLimit one(1);
   const std::string text = GENERATE(without(small_avalanche, parts[0].sections),

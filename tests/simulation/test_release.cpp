@@ -105,6 +105,37 @@ TEST_CASE("Smoke fills boxes exactly and balls nearly, whatever the cells", "[re
   CHECK(ball.smoke_mass() == Approx(3 * std::numbers::pi * 4).epsilon(0.01));
 }
 
+TEST_CASE("Smoke fills polygons nearly, as it fills boxes and the snow's polygons", "[release]") {
+  const auto cell = GENERATE(0.3, 0.075);
+  const std::string air = box_2d + "[suspension]\ncell_size = " + std::to_string(cell) + "\n";
+  const auto mass = [&](const std::string& points) {
+    return Simulation<2>(
+               parse_scene(air + "[smoke]\nshape = \"polygon\"\ndensity = 2\npoints = " + points + "\n", "a.toml"))
+        .smoke_mass();
+  };
+  const double error = 0.3 * cell * cell;  // corners are cut within a cell
+  CHECK(mass("[[1, 1], [9, 1], [9, 5]]") == Approx(2 * 16).epsilon(error));
+  CHECK(mass("[[1, 1], [5, 1], [5, 5], [3, 2], [1, 5]]") == Approx(2 * 10).epsilon(error));  // a notch
+  CHECK(mass("[[1, 1], [5, 1], [1, 5], [5, 5]]") == Approx(2 * 8).epsilon(error));           // an hourglass
+  // On the lines of the grid.
+  const std::string box = "lower = [1.2, 1.5]\nupper = [4.5, 3]\n";
+  const Scene boxed = parse_scene(air + "[smoke]\ndensity = 2\n" + box, "a.toml");
+  const Scene drawn = parse_scene(
+      air + "[smoke]\nshape = \"polygon\"\ndensity = 2\n" + "points = [[1.2, 1.5], [4.5, 1.5], [4.5, 3], [1.2, 3]]\n",
+      "a.toml");
+  const Simulation<2> a(boxed), b(drawn);
+  for (std::size_t i = 0; i < a.suspension()->smoke_mass().size(); ++i)
+    REQUIRE(b.suspension()->smoke_mass()[i] == Approx(a.suspension()->smoke_mass()[i]).margin(1e-9));
+}
+
+TEST_CASE("A polygon of smoke in 3D goes over the whole breadth", "[release]") {
+  const Scene scene = parse_scene(
+      "schema_version = 1\n[scene]\ndim = 3\n[domain]\nlower = [0, 0, 0]\nupper = [4, 2, 4]\n[suspension]\n"
+      "cell_size = 0.25\n[smoke]\nshape = \"polygon\"\ndensity = 3\npoints = [[1, 1], [3, 1], [1, 3]]\n",
+      "a.toml");
+  CHECK(Simulation<3>(scene).smoke_mass() == Approx(3 * 2 * 2).epsilon(0.04));
+}
+
 TEST_CASE("Obstacles stop snow and air", "[release]") {
   Simulation<2> simulation(parse_scene(
       box_2d + "left = \"closed\"\nright = \"closed\"\n[dense_flow]\nsupport_radius = 0.2\n"

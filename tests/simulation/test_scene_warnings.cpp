@@ -71,6 +71,11 @@ TEST_CASE("scenes that hardly mean what they say get a warning with its place an
       {head + "[suspension]\nfrozen = true\n[suspension.confinement]\n",
        "a.toml:7:13: warning: suspension.confinement: has no effect on air that is frozen: suspension.frozen is true"},
       {head + "gravity = [0, 9.81]\n[suspension]\n", "a.toml:5:11: warning: domain.gravity: points upwards"},
+      {head + "[suspension]\nscheme = \"reflection\"\ncfl = 20\n",
+       "a.toml:7:7: warning: suspension.cfl: the reflection scheme can gain energy in steps of more than ten cells"},
+      {good + "[suspension]\ncell_size = 1\nair_density = 301\n",
+       "a.toml:9:2: warning: dense_flow.density: snow lighter than the air with its smoke, 301 kg/m^3: the air throws "
+       "it about, and the run may end as unstable"},
       {good + "[suspension]\ncell_size = 1\n[coupling]\n",
        "a.toml:14:2: warning: coupling: nothing is exchanged: it has none of drag, lift, generation and adhesion"},
       {good + "[suspension]\ncell_size = 1\n[coupling.adhesion]\n",

@@ -87,6 +87,19 @@ TEMPLATE_TEST_CASE_SIG("The same bits with any number of threads", "[simulation]
   CHECK(digests[0] != state_digest(run<Dim>(scene_of(avalanche<Dim>(), {"scene.end_time=0.2", "scene.seed=2"}))));
 }
 
+TEMPLATE_TEST_CASE_SIG("The same bits with a k-d tree's neighbours", "[simulation]", ((int Dim), Dim), 2, 3) {
+  std::vector<std::string> digests;
+  for (const char* search : {"cell_list", "kd_tree"}) {
+    Simulation<Dim> simulation(scene_of(avalanche<Dim>(), {"dense_flow.neighbour_search=" + std::string(search),
+                                                           "dense_flow.viscosity=5", "dense_flow.wall=no_slip"}));
+    for (int i = 0; i < 40; ++i) simulation.step();
+    CHECK(simulation.dense()->neighbours().n_pairs() > 1000);
+    CHECK(simulation.masses().n_entrained > 0);
+    digests.push_back(state_digest(simulation));
+  }
+  CHECK(digests[0] == digests[1]);
+}
+
 TEST_CASE("Without generation no smoke, without entrainment no new snow, without either layer nothing of it",
           "[simulation]") {
   const Simulation<2> clear = run<2>(scene_of(without(small_avalanche, {"coupling.generation", "coupling.adhesion"})));

@@ -39,8 +39,13 @@ TEST_CASE("The step: 10 ms or what the scene says, particles, air or sound, by h
     CHECK(step.dt == 0.01);
     CHECK(step.limiter == "longest step");
   }
+  SECTION("air from rest: sqrt(0.3 * 0.5 m / 10 m/s2)") {
+    const FirstStep step = first_step(air + "cfl = 0.3\n", {"scene.max_step=10"});
+    CHECK(step.dt == Approx(std::sqrt(0.015)));
+    CHECK(step.limiter == "air");
+  }
   SECTION("nothing moves, and the scene allows more, or less") {
-    const auto longest = GENERATE(10.0, 0.25, 1e-4);
+    const auto longest = GENERATE(0.2, 0.1, 1e-4);
     const FirstStep step = first_step(air, {"scene.max_step=" + std::to_string(longest)});
     CHECK(step.dt == longest);
     CHECK(step.limiter == "longest step");

@@ -33,7 +33,7 @@ const std::map<std::string, std::string> homes{
     {"hdf5.h", "src/io/"},
     {"cairo/", "src/io/"},
     {"xxhash.h", "src/io/"},
-    {"nanoflann", "src/sph/sampling.cpp"},
+    {"nanoflann", "src/sph/kd_tree.hpp"},
     {"CLI/", "apps/"},
     {"toml++/", "src/simulation/toml_document.cpp"},
     {"oneapi/tbb", "src/core/parallel"},
