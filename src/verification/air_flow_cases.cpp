@@ -140,6 +140,12 @@ Case taylor_green() {
                        {},
                        {cells_of(1.0 / 32, 0.005), cells_of(1.0 / 64, 0.00125), cells_of(1.0 / 128, 0.0003)}};
   what.series = air_series(refined, 1);
+  what.series.push_back({"time step",
+                         "scene.max_step, dx = 1/128 m, any CFL number",
+                         {"suspension.cell_size=0.0078125", "suspension.cfl=100"},
+                         {{"200 ms", {"scene.max_step=0.2"}, 0.2},
+                          {"100 ms", {"scene.max_step=0.1"}, 0.1},
+                          {"50 ms", {"scene.max_step=0.05"}, 0.05}}});
   what.least_order = 1.9;
   what.quick = true;
   what.compare = Compare<2>(compare_taylor_green);
