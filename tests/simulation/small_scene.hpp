@@ -81,6 +81,36 @@ threshold_speed = 0
 [entrainment]
 )";
 
+/// Snow far lighter than the smoke around it, which throws it about: a runaway whatever the step.
+inline constexpr std::string_view runaway = R"(
+schema_version = 1
+[scene]
+name = "runaway"
+end_time = 1
+[domain]
+lower = [0, 0]
+upper = [12, 9]
+[release]
+shape = "ball"
+center = [5, 5]
+radius = 1
+[dense_flow]
+support_radius = 0.3
+density = 0.02
+friction_acts_on = "none"
+[suspension]
+cell_size = 0.5
+[smoke]
+shape = "ball"
+center = [5, 5.5]
+radius = 2
+density = 5000
+[coupling.drag]
+[output]
+frames_per_second = 350
+preview_width = 200
+)";
+
 /// The text without the named sections, each with its keys.
 inline std::string without(std::string_view text, const std::vector<std::string>& sections) {
   std::string kept;

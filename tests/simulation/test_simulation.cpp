@@ -113,7 +113,7 @@ TEST_CASE("Without generation no smoke, without entrainment no new snow, without
 }
 
 TEST_CASE("A runaway is caught in its step and named", "[simulation]") {
-  Simulation<2> simulation(scene_of(small_avalanche, {"release.velocity=[900, 0]"}));
+  Simulation<2> simulation(scene_of(runaway));
   try {
     for (int i = 0; i < 50; ++i) simulation.step();
     FAIL("not caught");
