@@ -57,7 +57,7 @@ out the set-up. Allowed are {allowed:.1f} %. A negative share is what another in
 `tests/simulation/test_alone.cpp` holds the equality of bits in every build, `tests/simulation/test_absence.cpp` that an
 absent part takes no pass, no byte and no allocation. The snow of a scene with a suspension, but without a coupling, has
 the bits of the scene without a suspension as long as no cell is core (outside overlap, half filled with snow) and the
-air does not rule the time step; from the first core cell on the air answers the snow, which is physics and not overhead.
+air does not rule the time step; from the first core cell on the air answers the snow: physics, not overhead.
 """
 
 
