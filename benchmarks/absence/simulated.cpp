@@ -1,0 +1,107 @@
+/// absence steps STEPS PARTS: steps of the avalanche with its first PARTS parts, 0: of air alone; prints the state's
+/// bits. absence table WARM STEPS: name, bytes, median ms and median allocations a step of every stage of the
+/// avalanche, after WARM steps. All of them take turns, step by step, so that a noisy machine is noisy for all.
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <deque>
+#include <new>
+
+#include "absence/air_alone.hpp"
+#include "absence/dense_alone.hpp"
+#include "absence/scenes.hpp"
+#include "simulation/scene_reader.hpp"
+#include "simulation/simulation.hpp"
+
+using namespace spindrift;
+
+namespace {
+std::atomic<std::uint64_t> n_allocations{0};
+}
+
+void* operator new(std::size_t size) {
+  ++n_allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++n_allocations;
+  const auto a = static_cast<std::size_t>(alignment);
+  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Simulation<2> avalanche(std::size_t n_parts) {
+  return Simulation<2>(parse_scene(absence::avalanche(n_parts), "avalanche.toml"));
+}
+
+void take_steps(int n_steps, std::size_t n_parts) {
+  Simulation<2> simulation =
+      n_parts > 0 ? avalanche(n_parts) : Simulation<2>(parse_scene(absence::air_alone, "air.toml"));
+  for (int i = 0; i < n_steps; ++i) simulation.step();
+  fmt::print("{:016x}\n", n_parts > 0 ? absence::bits_of(simulation.dense()->particles)
+                                      : absence::bits_of(*simulation.suspension()));
+}
+
+struct Measured {
+  Simulation<2> simulation;
+  std::vector<double> milliseconds{}, allocations{};
+
+  void step() {
+    const std::uint64_t before = n_allocations;
+    const auto start = std::chrono::steady_clock::now();
+    simulation.step();
+    milliseconds.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    allocations.push_back(static_cast<double>(n_allocations - before));
+  }
+};
+
+void print_table(int warm, int n_steps) {
+  std::deque<Measured> all;
+  for (std::size_t n = 1; n <= std::size(absence::parts); ++n) {
+    all.push_back({avalanche(n)});
+    for (int i = 0; i < warm; ++i) all.back().simulation.step();
+  }
+  for (Measured& one : all) one.milliseconds.reserve(n_steps), one.allocations.reserve(n_steps);
+  for (int i = 0; i < n_steps; ++i)
+    for (Measured& one : all) one.step();
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    std::size_t bytes = 0;
+    for (const auto& part : all[n].simulation.memory()) bytes += part.second;
+    fmt::print("{}\t{}\t{:.4f}\t{:.0f}\n", absence::parts[n].name, bytes, median(all[n].milliseconds),
+               median(all[n].allocations));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4) return 2;
+  const ThreadLimit one(1);
+  const int first = std::atoi(argv[2]), second = std::atoi(argv[3]);
+  std::string_view(argv[1]) == "table" ? print_table(first, second)
+                                       : take_steps(first, static_cast<std::size_t>(second));
+}
