@@ -147,7 +147,8 @@ void add_verify(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_flag("--list", arguments->list, "name the cases, with a line each");
   command->add_flag("--stability", arguments->stability, "try extreme scenes and a map of stiff ones instead");
-  command->add_flag("--quick", arguments->quick, "ten cases at two levels, once each; a map of 100 points");
+  command->add_flag("--quick", arguments->quick,
+                    "the cases marked quick at two levels, once each; a map of 100 points");
   command->add_option("--repeats", arguments->repeats, "of every run, for the median of its time")
       ->check(CLI::Range(1, 100))
       ->type_name("N")

@@ -19,7 +19,8 @@ Handle open_bytes(std::span<const std::byte> bytes) {
   const Handle access = property_list(H5P_FILE_ACCESS);
   checked(H5Pset_fapl_core(access, std::size_t{1} << 20, 0), "choose memory");
   checked(H5Pset_file_image(access, const_cast<std::byte*>(bytes.data()), bytes.size()), "take the file");
-  return {H5Fopen("spindrift", H5F_ACC_RDONLY, access), H5Fclose, "not an HDF5 file"};
+  // HDF5 refuses an image whose name is that of a file on disk, so it gets one that no file can have.
+  return {H5Fopen("/dev/null/frame", H5F_ACC_RDONLY, access), H5Fclose, "not an HDF5 file"};
 }
 
 /// Only hard links: the others may lead out of the file.

@@ -89,6 +89,7 @@ std::string digest_of_run(const Trial& trial, const Scene& scene, TrialResult& r
     look_at(simulation, result, watch);
   }
   result.steps = simulation.n_steps();
+  result.rejected = simulation.back_off().n_rejected_in_all;
   result.energy_growth = first_energy > 0 ? watch.most_energy / first_energy - 1 : 0;
   if (!trial.beyond)
     watch.expect(result.energy_growth <= largest_energy_growth,

@@ -173,6 +173,16 @@ TEST_CASE("frames read back", "[vtkhdf]") {
   CHECK(std::get<std::vector<float>>(stored.arrays.at(0).values) == image.density);
 }
 
+TEST_CASE("frames are read whatever the folder at hand holds", "[vtkhdf]") {
+  // HDF5 refuses an image in memory that has the name of a file on disk.
+  const TemporaryFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  for (const char* name : {"spindrift", "frame"}) std::ofstream(folder.path() / name) << "a program, not a frame";
+  CHECK_NOTHROW(read_vtkhdf(vtkhdf_bytes(SampleCloud(3).view()), "frame"));
+  std::filesystem::current_path(before);
+}
+
 TEST_CASE("a long scene fits into its attribute", "[vtkhdf]") {
   const SampleCloud sample(1);
   PointCloud cloud = sample.view();
