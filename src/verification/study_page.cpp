@@ -31,7 +31,7 @@ std::string seconds_text(double seconds) {
 }
 
 std::string verdict(const CaseResult& result) {
-  return result.passed() ? "inside" : "**outside**";
+  return result.passed() ? "inside" : "*outside*";
 }
 
 const Point& finest(const CaseResult& result) {
@@ -55,7 +55,7 @@ std::string checks_text(const Outcome& outcome) {
   std::string text;
   for (const Check& check : outcome.checks)
     text += fmt::format("{}{} {:.3g} ({}{:g})", text.empty() ? "" : "; ", check.name, check.value,
-                        check.passed() ? "at most " : "**above** ", check.limit);
+                        check.passed() ? "at most " : "*above* ", check.limit);
   return text;
 }
 
