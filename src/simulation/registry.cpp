@@ -118,6 +118,9 @@ void add_snow(Registry& r) {
       .number<&F::density_tolerance>("density_tolerance", "", between(0, 1), "mean compression allowed")
       .number<&F::divergence_tolerance>("divergence_tolerance", "", above(0, 1000),
                                         "mean rate of compression allowed, in percent of the volume a step")
+      .number<&F::relative_tolerance>(
+          "relative_tolerance", "", from(0, 1),
+          "mean compression left by a solve, over what the velocities alone would make; 0: not asked for")
       .number<&F::max_iterations>("max_iterations", "", iterations, "of each pressure solve")
       .with("solver", {"wcsph"})
       .number<&F::sound_speed>("sound_speed", "m/s", from(0, 1e5),

@@ -103,7 +103,8 @@ std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Di
   options.solver = section.solver == "wcsph" ? DenseSolver::wcsph : DenseSolver::dfsph;
   options.viscosity = section.viscosity;
   options.no_slip = section.wall == "no_slip";
-  options.pressure = {section.density_tolerance, section.divergence_tolerance, section.max_iterations};
+  options.pressure = {section.density_tolerance, section.divergence_tolerance, section.relative_tolerance,
+                      section.max_iterations};
   options.sound_speed = section.sound_speed;
   if (section.neighbour_search == "kd_tree") options.neighbour_search = NeighbourSearch::kd_tree;
   if (options.solver == DenseSolver::wcsph && options.sound_speed == 0)

@@ -26,6 +26,7 @@ DenseFlowOptions checked(const DenseFlowOptions& o) {
   require(o.viscosity >= 0 && std::isfinite(o.viscosity), "viscosity must not be negative");
   require(positive(o.pressure.density_tolerance), "density_tolerance must be positive");
   require(positive(o.pressure.divergence_tolerance), "divergence_tolerance must be positive");
+  require(o.pressure.relative_tolerance >= 0, "relative_tolerance must not be negative");
   require(o.pressure.max_iterations >= 1, "max_iterations must be at least 1");
   require(o.solver == DenseSolver::dfsph || positive(o.sound_speed), "sound_speed must be positive for wcsph");
   return o;

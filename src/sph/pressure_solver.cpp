@@ -26,6 +26,9 @@ constexpr double fastest_correction = 2.5;
 /// The largest error of a single particle, in tolerances of the mean: the mean alone hides one that rings.
 constexpr double largest_to_mean = 50;
 
+/// What single precision can still tell from nothing, of the mean.
+constexpr double least_tolerance = 1e-6;
+
 /// Free volume from which on a particle may lose all of it in one step.
 constexpr double loose = 0.1;
 
@@ -96,6 +99,13 @@ void PressureSolver<Dim>::prepare(const Particles<Dim>& particles, const Neighbo
 }
 
 template <int Dim>
+double PressureSolver<Dim>::mean_excess() const {
+  const double sum =
+      parallel_sum(excess_.size(), 0.0, [&](std::size_t i) { return static_cast<double>(std::max(0.0f, excess_[i])); });
+  return sum / static_cast<double>(excess_.size());
+}
+
+template <int Dim>
 SolveReport PressureSolver<Dim>::solve(Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt,
                                        Vec<Dim>& boundary_impulse) {
   const std::size_t n = particles.size();
@@ -104,13 +114,17 @@ SolveReport PressureSolver<Dim>::solve(Particles<Dim>& particles, const Neighbou
   prepare(particles, neighbours, dt);
   const double tolerance =
       std::min(compression_relaxation * options_.density_tolerance, 0.01 * options_.divergence_tolerance);
+  const double mean_tolerance =
+      options_.relative_tolerance > 0
+          ? std::clamp(options_.relative_tolerance * mean_excess(), std::min(least_tolerance, tolerance), tolerance)
+          : tolerance;
   double pace = 1;
   float share = 1;  // of the relaxation, less where even plain steps lead away
   for (double last_error = 0;; last_error = report.error) {
     find_displacements(neighbours);
     const auto [sum, largest] = find_residuals(neighbours);
     report.error = sum / static_cast<double>(n);
-    const bool done = report.error <= tolerance && largest <= largest_to_mean * tolerance && report.iterations > 0;
+    const bool done = report.error <= mean_tolerance && largest <= largest_to_mean * tolerance && report.iterations > 0;
     if (done || report.iterations == options_.max_iterations) break;
     if (report.error > last_error && report.iterations > 0) {
       if (pace < 2) share *= 0.7f;

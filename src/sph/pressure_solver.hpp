@@ -12,6 +12,8 @@ namespace spindrift {
 struct PressureOptions {
   double density_tolerance = 5e-4;    ///< mean compression left, as a fraction of the volume
   double divergence_tolerance = 0.1;  ///< mean rate of compression left, in percent of the volume a step
+  /// mean compression left, as a share of what the velocities alone would compress; 0: not asked for
+  double relative_tolerance = 0;
   int max_iterations = 100;
 };
 
@@ -45,6 +47,8 @@ class PressureSolver {
   /// First guess and result: particles.pressure. boundary_impulse: += what walls and cover gave [kg m s^-1].
   /// Ends when the mean error r of dt D is at most compression_relaxation times density_tolerance and a hundredth of
   /// divergence_tolerance, and no particle's error over 50 times that, or after max_iterations; at least one iteration.
+  /// With a relative tolerance r is also at most that share of the mean of max(0, dt D(v) - allowed) before the solve:
+  /// snow under its own weight compresses by dt^2 g / H a step, which in fine snow is less than the other tolerances.
   /// Returns r.
   SolveReport solve(Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt,
                     Vec<Dim>& boundary_impulse);
@@ -53,6 +57,7 @@ class PressureSolver {
 
  private:
   void prepare(const Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt);
+  double mean_excess() const;
   void find_displacements(const Neighbours<Dim>& neighbours);
   struct Residuals {
     double sum = 0, largest = 0;

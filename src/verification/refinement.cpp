@@ -57,6 +57,7 @@ Scene scaled(const Scene& scene, std::string_view factor, double scale) {
     if (all || factor == "tolerances") {
       dense.density_tolerance = std::min(0.5, dense.density_tolerance * scale * scale);
       dense.divergence_tolerance *= scale * scale;
+      dense.relative_tolerance = std::min(1.0, dense.relative_tolerance * scale * scale);
     }
   }
   if (out.suspension) {

@@ -13,7 +13,7 @@ namespace {
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, "\"");
   std::ranges::replace(text, '\n', ' ');
-  return '"' + text + '"';
+  return fmt::format("\"{}\"", text);
 }
 
 std::string csv_of(const std::vector<TrialResult>& results) {

@@ -19,7 +19,7 @@ std::string quoted(std::string text) {
   for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, "\"");
   for (char& c : text)
     if (c == '\n') c = ' ';
-  return '"' + text + '"';
+  return fmt::format("\"{}\"", text);
 }
 
 std::string error_text(double error) {
