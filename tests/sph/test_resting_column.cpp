@@ -105,6 +105,12 @@ TEST_CASE("a column comes to rest", "[column][slow]") {
     const int rows = GENERATE(20, 50);
     check(column(rows, 20, {}), rows, 300, 1e-3, 0.02);
   }
+  SECTION("with a relative tolerance at any resolution: what is left goes with dt^2 g / H") {
+    const int rows = GENERATE(20, 50, 100);
+    DenseFlowOptions options;
+    options.pressure.relative_tolerance = 0.1;
+    check(column(rows, 20, options), rows, 300, 1e-3, 0.02);
+  }
   SECTION("with a tight solve within the catalogue's gates, at any resolution and for long (A2)") {
     const int rows = GENERATE(20, 50, 100);
     DenseFlowOptions options;
