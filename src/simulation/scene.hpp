@@ -77,7 +77,8 @@ struct SmokeSection {
 
 struct DenseFlowSection {
   std::string solver = "dfsph";        ///< "dfsph" | "wcsph"
-  double support_radius = 0.21;        ///< h [m]; the spacing is h / 2
+  double support_radius = 0.21;        ///< h [m]
+  double support_ratio = 2;            ///< h over the particle spacing
   double density = 300;                ///< [kg m^-3]
   double viscosity = 0;                ///< mu [Pa s]
   std::string wall = "slip";           ///< "slip" | "no_slip": of the viscous stress at walls
@@ -91,6 +92,8 @@ struct DenseFlowSection {
   std::string friction_acts_on = "column";     ///< "column" | "base" | "none"
   double compaction_time = 0.1;                ///< [s]; 0: off (R20)
   std::string neighbour_search = "cell_list";  ///< "cell_list" | "kd_tree"
+
+  double spacing() const { return support_radius / support_ratio; }  ///< d of the particles [m]
 };
 
 struct CoverSection {

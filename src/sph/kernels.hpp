@@ -1,5 +1,5 @@
 #pragma once
-/// Smoothing kernels with support radius h. The particle spacing is h / 2.
+/// Smoothing kernels with support radius h, over particles of spacing d.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace spindrift {
 
 /// Cubic spline, W(r) = 2 sigma [(1 - q)^3 - 4 (1/2 - q)_+^3], q = r / h < 1 (Monaghan 1992), its integral over Dim
-/// dimensions 1. On the lattice of spacing h / 2 the sum of V W is 1.0008 in 2D.
+/// dimensions 1. On the lattice of h = 2 d the sum of V W is 1.0008 in 2D.
 template <int Dim>
 struct CubicSpline {
   double h;      ///< support radius [m]
@@ -38,10 +38,10 @@ struct CubicSpline {
 };
 
 /// The paper's kernel of number density, Eq. (6): W_n = h / r - 1 for r < h, else 0. Departure R1: r is at least the
-/// particle spacing, h / 2. Settled snow bunches up along its surface, and with the pole at 0 a surface row would count
+/// particle spacing d. Settled snow bunches up along its surface, and with the pole at 0 a surface row would count
 /// as full (median 0.95 of the interior; with the bound 0.69, while the interior stays at 0.97).
-inline double number_density_kernel(double r, double h) {
-  return r < h ? h / std::max(r, 0.5 * h) - 1 : 0;
+inline double number_density_kernel(double r, double h, double d) {
+  return r < h ? h / std::max(r, d) - 1 : 0;
 }
 
 }  // namespace spindrift

@@ -40,7 +40,7 @@ inline constexpr double compression_relaxation = 0.4;
 template <int Dim>
 class PressureSolver {
  public:
-  PressureSolver(const PressureOptions& options, double support_radius) : options_(options), h_(support_radius) {}
+  PressureSolver(const PressureOptions& options, double support_radius, double spacing);
 
   /// First guess and result: particles.pressure. boundary_impulse: += what walls and cover gave [kg m s^-1].
   /// Ends when the mean error r of dt D is at most compression_relaxation times density_tolerance and a hundredth of
@@ -62,6 +62,7 @@ class PressureSolver {
 
   PressureOptions options_;
   double h_;
+  double least_diagonal_;        ///< of m / V dD_i/dp_i, in units of h^-2
   std::vector<float> excess_;    ///< dt D(v) of the velocities given, minus the largest allowed
   std::vector<float> residual_;  ///< the same with the pressure's velocities
   std::vector<float> step_;      ///< relaxation / diagonal of dt^2 dD/dp

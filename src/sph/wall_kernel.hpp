@@ -25,7 +25,7 @@ struct WallShare {
 template <int Dim>
 class WallKernel {
  public:
-  explicit WallKernel(double support_radius);
+  WallKernel(double support_radius, double spacing);
 
   double support_radius() const { return h_; }                           ///< [m]
   double fraction(double s) const { return interpolate(fraction_, s); }  ///< I: 0 at s >= h, 1/2 at 0, 1 at s <= -h
@@ -49,7 +49,7 @@ class WallKernel {
   std::size_t bytes() const;
 
  private:
-  void fit_to_lattice();
+  void fit_to_lattice(double spacing);
   double interpolate(const std::vector<double>& table, double s) const;
 
   double h_;

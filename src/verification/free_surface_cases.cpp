@@ -40,7 +40,7 @@ Comparison<2> compare_martin_moyce(const Simulation<2>& start) {
     Curve front, height;
   };
   const auto seen = std::make_shared<Seen>();
-  const double g = 9.81, d = start.dense()->options().spacing();
+  const double g = 9.81, d = start.dense()->options().spacing;
   return {[seen, g, d](const Simulation<2>& now) {
             seen->front.push_back({now.time() * std::sqrt(2 * g), bulk_front(now, 2 * d, 0.2)});
             seen->height.push_back({now.time() * std::sqrt(g), height_at_left_wall(now, 4 * d) / 2});

@@ -100,7 +100,7 @@ TEST_CASE("A dam break runs as Martin and Moyce measured", "[cases][slow]") {
                                                  {2.65, 3.22}, {2.83, 3.44}, {2.98, 3.67}, {3.11, 3.89}, {3.33, 4.11}};
   const std::vector<std::array<double, 2>> height{{0.56, 0.94}, {0.93, 0.83}, {1.46, 0.67}, {2.00, 0.50}, {2.45, 0.39}};
   Simulation<2> simulation = simulation_of("dam_break.toml", {"scene.end_time=0.8 s"});
-  const double g = 9.81, d = simulation.dense()->options().spacing();
+  const double g = 9.81, d = simulation.dense()->options().spacing;
   std::vector<std::array<double, 2>> fronts, heights;
   while (!simulation.done()) {
     simulation.step();

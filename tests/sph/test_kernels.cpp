@@ -59,9 +59,11 @@ TEMPLATE_TEST_CASE_SIG("the volume sum of a full lattice is one", "[kernels]", (
   if (Dim == 2) CHECK(sum == Approx(1.0008).margin(1e-4));
 }
 
-TEST_CASE("the number-density kernel has its floor at h / 2", "[kernels]") {
-  CHECK(number_density_kernel(0.5, 1) == Approx(1));
-  CHECK(number_density_kernel(0.75, 1) == Approx(1.0 / 3));
-  CHECK(number_density_kernel(0, 1) == 1);
-  CHECK(number_density_kernel(1, 1) == 0);
+TEST_CASE("the number-density kernel has its floor at the spacing", "[kernels]") {
+  CHECK(number_density_kernel(0.5, 1, 0.5) == Approx(1));
+  CHECK(number_density_kernel(0.75, 1, 0.5) == Approx(1.0 / 3));
+  CHECK(number_density_kernel(0, 1, 0.5) == 1);
+  CHECK(number_density_kernel(1, 1, 0.5) == 0);
+  CHECK(number_density_kernel(0.3, 1, 0.25) == Approx(1 / 0.3 - 1));
+  CHECK(number_density_kernel(0.1, 1, 0.25) == Approx(3));
 }
