@@ -101,6 +101,7 @@ std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Di
   DenseFlowOptions options;
   options.support_radius = section.support_radius;
   options.spacing = section.spacing();
+  if (section.kernel == "wendland") options.kernel = KernelShape::wendland;
   options.density = section.density;
   options.solver = section.solver == "wcsph" ? DenseSolver::wcsph : DenseSolver::dfsph;
   options.viscosity = section.viscosity;

@@ -59,7 +59,7 @@ void check_velocities(const Particles<Dim>& particles, const char* after) {
 template <int Dim>
 DenseFlow<Dim>::DenseFlow(const DenseFlowOptions& options)
     : options_(checked(options)),
-      wall_kernel_(options.support_radius, options.spacing),
+      wall_kernel_(options.support_radius, options.spacing, options.kernel),
       cells_(options.support_radius),
       pressure_solver_(options.pressure, options.support_radius, options.spacing),
       viscosity_solver_(options.spacing),

@@ -18,7 +18,8 @@ enum class DenseSolver { dfsph, wcsph };
 struct DenseFlowOptions {
   double support_radius = 0.21;  ///< h [m]
   double spacing = 0.105;        ///< d [m], less than h
-  double density = 300;          ///< rest density [kg m^-3]
+  KernelShape kernel = KernelShape::cubic_spline;
+  double density = 300;  ///< rest density [kg m^-3]
   DenseSolver solver = DenseSolver::dfsph;
   double viscosity = 0;      ///< mu [Pa s]; 0: the viscous solve does not exist
   bool no_slip = false;      ///< walls and cover hold the snow by viscosity

@@ -86,10 +86,13 @@ class Neighbours {
     std::size_t bytes() const;
   };
   struct Input;
-  void find_block(std::size_t begin, std::size_t end, const Input& input);
+  template <class K>
+  void find_block(std::size_t begin, std::size_t end, const Input& input, const K& kernel);
   void find_candidates(std::size_t i, Block& block, const Input& input);
-  void find_row(std::size_t i, Block& block, const Input& input);
-  void add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input);
+  template <class K>
+  void find_row(std::size_t i, Block& block, const Input& input, const K& kernel);
+  template <class K>
+  void add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input, const K& kernel);
 
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> row_end_;  ///< within the particle's block

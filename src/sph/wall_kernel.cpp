@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/memory.hpp"
-#include "sph/kernels.hpp"
 
 namespace spindrift {
 namespace {
@@ -49,14 +48,15 @@ std::vector<double> plane_integrals(F&& f) {
 }  // namespace
 
 template <int Dim>
-WallKernel<Dim>::WallKernel(double support_radius, double spacing) : h_(support_radius) {
-  const CubicSpline<Dim> unit(1.0);
-  slope_ = plane_integrals<Dim>([&](double r) { return unit.value(r); });
+WallKernel<Dim>::WallKernel(double support_radius, double spacing, KernelShape shape)
+    : shape_(shape), h_(support_radius) {
+  with_kernel<Dim>(shape, 1.0,
+                   [&](const auto& unit) { slope_ = plane_integrals<Dim>([&](double r) { return unit.value(r); }); });
   fraction_ = integral_above(slope_);
   for (double& w : slope_) w = -w / fraction_.front();
   for (double& i : fraction_) i /= fraction_.front();
 
-  fit_to_lattice(spacing);
+  with_kernel<Dim>(shape, h_, [&](const auto& kernel) { fit_to_lattice(kernel, spacing); });
 
   number_density_fraction_ = integral_above(
       plane_integrals<Dim>([&](double r) { return number_density_kernel(r, 1.0, spacing / support_radius); }));
@@ -68,8 +68,8 @@ WallKernel<Dim>::WallKernel(double support_radius, double spacing) : h_(support_
 /// The rows of a lattice of spacing d that a wall at d/2 from its first row replaces, as far as they lie inside the
 /// first row's support: one where h = 2 d.
 template <int Dim>
-void WallKernel<Dim>::fit_to_lattice(double spacing) {
-  const CubicSpline<Dim> kernel(h_);
+template <class K>
+void WallKernel<Dim>::fit_to_lattice(const K& kernel, double spacing) {
   const double d = spacing;
   const int reach = static_cast<int>(std::ceil(h_ / d));
   double value = 0, slope_value = 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/vec.hpp"
+#include "sph/kernels.hpp"
 #include "terrain/walls.hpp"
 
 namespace spindrift {
@@ -25,8 +26,9 @@ struct WallShare {
 template <int Dim>
 class WallKernel {
  public:
-  WallKernel(double support_radius, double spacing);
+  WallKernel(double support_radius, double spacing, KernelShape shape = KernelShape::cubic_spline);
 
+  KernelShape shape() const { return shape_; }
   double support_radius() const { return h_; }                           ///< [m]
   double fraction(double s) const { return interpolate(fraction_, s); }  ///< I: 0 at s >= h, 1/2 at 0, 1 at s <= -h
   double slope(double s) const { return interpolate(slope_, s) / h_; }   ///< dI/ds [m^-1], never positive
@@ -49,9 +51,11 @@ class WallKernel {
   std::size_t bytes() const;
 
  private:
-  void fit_to_lattice(double spacing);
+  template <class K>
+  void fit_to_lattice(const K& kernel, double spacing);
   double interpolate(const std::vector<double>& table, double s) const;
 
+  KernelShape shape_;
   double h_;
   std::vector<double> fraction_, slope_, number_density_fraction_;  ///< over s / h in [-1, 1]; the slope times h
   double number_density_integral_;

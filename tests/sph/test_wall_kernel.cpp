@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
+#include <type_traits>
 
-#include "sph/kernels.hpp"
 #include "sph/wall_kernel.hpp"
 
 using namespace spindrift;
@@ -30,14 +30,20 @@ Walls<Dim> closed_box(double size) {
   return walls;
 }
 
+template <class Shape>
+constexpr KernelShape shape_of =
+    std::is_same_v<Shape, WendlandShape> ? KernelShape::wendland : KernelShape::cubic_spline;
+
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("wall integrals match sums over a fine lattice", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("wall integrals match sums over a fine lattice", "[wall_kernel]",
+                       ((int Dim, class Shape), Dim, Shape), (2, CubicSplineShape), (3, CubicSplineShape),
+                       (2, WendlandShape), (3, WendlandShape)) {
   const double h = 0.4;
   const int n = Dim == 2 ? 800 : 160;  // distances fall between the lattice's planes
   const double d = GENERATE(0.2, 0.15);
-  const WallKernel<Dim> wall(h, d);
-  const CubicSpline<Dim> kernel(h);
+  const WallKernel<Dim> wall(h, d, shape_of<Shape>);
+  const Kernel<Dim, Shape> kernel(h);
   const double s = GENERATE(-0.35, -0.1, 0.0, 0.05, 0.2, 0.3, 0.39);
   const auto behind = [&](const Vec<Dim>& x) { return x[0] > s; };
   const double fraction = lattice_integral<Dim>(
@@ -65,12 +71,13 @@ TEMPLATE_TEST_CASE_SIG("wall integrals end where they must", "[wall_kernel]", ((
   CHECK(wall.slope(s) == Approx((wall.fraction(s + e) - wall.fraction(s - e)) / (2 * e)).margin(1e-3 / 0.2));
 }
 
-TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", "[wall_kernel]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", "[wall_kernel]",
+                       ((int Dim, class Shape), Dim, Shape), (2, CubicSplineShape), (3, CubicSplineShape),
+                       (2, WendlandShape), (3, WendlandShape)) {
   const double ratio = GENERATE(1.6, 2.0, 2.5, 3.0), d = 0.1, h = ratio * d;
   CAPTURE(ratio);
-  const WallKernel<Dim> wall(h, d);
-  const CubicSpline<Dim> kernel(h);
+  const WallKernel<Dim> wall(h, d, shape_of<Shape>);
+  const Kernel<Dim, Shape> kernel(h);
   Walls<Dim> walls;
   walls.domain = {Vec<Dim>::Constant(-10), Vec<Dim>::Constant(10)};
   walls.domain.lower[Dim - 1] = 0;
