@@ -22,7 +22,9 @@ struct WallShare {
 /// twice as hard as grad I times the pressure; with a force of -2 p grad I next to a volume sum with I the forces would
 /// have no potential, and a resting column would boil for ever. J has the mirror's slope instead of I's: s_0 and a are
 /// such that a lattice whose first row lies d/2 off the wall is full, and at rest under uniform pressure (a is about
-/// 2). Several walls: the free fractions multiply, 1 - prod_k (1 - J(s_k)), which is right at box corners.
+/// 2). Only the first row is fitted, and where h = 2 d no other reaches the wall: with h = 3 d the second row lacks 3 %
+/// of its volume sum. Several walls: the free fractions multiply, 1 - prod_k (1 - J(s_k)), which is right at box
+/// corners.
 template <int Dim>
 class WallKernel {
  public:
