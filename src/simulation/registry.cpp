@@ -108,8 +108,7 @@ void add_snow(Registry& r) {
   using F = DenseFlowSection;
   Rows<&Scene::dense_flow>(r, "dense_flow", "the flowing snow, as particles")
       .words<&F::solver>("solver", {"dfsph", "wcsph"}, "pressure: implicit on volume, or an equation of state", "R11")
-      .words<&F::kernel>("kernel", {"cubic_spline", "wendland"},
-                         "W; wendland, of class C2, wants a larger support_ratio", "Eq. (4)")
+      .words<&F::kernel>("kernel", {"cubic_spline", "wendland"}, "W; wendland: of class C2", "Eq. (4)")
       .number<&F::support_radius>("support_radius", "m", above(0, 100), "h, of the kernel", "Sec. 5")
       .number<&F::support_ratio>("support_ratio", "", from(1.5, 4), "h over the particle spacing d", "Sec. 5")
       .number<&F::density>("density", "kg/m^3", above(0, 1e5), "of the flowing snow", "R20")

@@ -183,7 +183,7 @@ void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::
   if (const double weight = normal.squaredNorm(); weight > 0)
     gradient += (cover_gradient.dot(normal) / weight) * normal;
   volume_sum_[i] += share;
-  full_[i] = std::max(1.0, share + input.particles.volume[i] * kernel.sigma);
+  full_[i] = std::max(input.wall_kernel.full(), share + input.particles.volume[i] * kernel.sigma);
   boundary_[i] = gradient;
   gradient_sum_[i] += 2 * gradient;
   if (input.no_slip) no_slip_[i] = drag;

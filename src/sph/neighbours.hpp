@@ -62,8 +62,9 @@ class Neighbours {
   std::size_t n_pairs() const;
 
   const std::vector<double>& volume_sum() const { return volume_sum_; }  ///< delta
-  /// The volume sum that counts as full: 1, or what cover, walls and the particle alone make up where that is more.
-  /// Snow that is wedged in between them cannot get thinner, and pressure that tried would grow without bound.
+  /// The volume sum that counts as full: that of WallKernel, or what cover, walls and the particle alone make up where
+  /// that is more. Snow that is wedged in between them cannot get thinner, and pressure that tried would grow without
+  /// bound.
   const std::vector<double>& full() const { return full_; }
   const std::vector<Vec<Dim>>& boundary_gradient() const { return boundary_; }  ///< b [m^-1]
   const std::vector<Vec<Dim>>& gradient_sum() const { return gradient_sum_; }   ///< G [m^-1]

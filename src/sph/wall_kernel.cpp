@@ -69,8 +69,8 @@ WallKernel<Dim>::WallKernel(double support_radius, double spacing, KernelShape s
 /// first row's support: one where h = 2 d.
 template <int Dim>
 template <class K>
-void WallKernel<Dim>::fit_to_lattice(const K& kernel, double spacing) {
-  const double d = spacing;
+void WallKernel<Dim>::fit_to_lattice(const K& kernel, double d) {
+  full_ = lattice_sum(kernel, d) / lattice_sum(CubicSpline<Dim>(2 * d), d);
   const int reach = static_cast<int>(std::ceil(h_ / d));
   double value = 0, slope_value = 0;
   Index<Dim - 1> row;

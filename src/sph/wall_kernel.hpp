@@ -31,6 +31,9 @@ class WallKernel {
   WallKernel(double support_radius, double spacing, KernelShape shape = KernelShape::cubic_spline);
 
   KernelShape shape() const { return shape_; }
+  /// The volume sum at which snow is full: that of the lattice, in units of the cubic spline's with h = 2 d (1.0008 in
+  /// 2D). Kernels that sum up to more would otherwise make the snow swell, by 4 % Wendland's with h = 2 d.
+  double full() const { return full_; }
   double support_radius() const { return h_; }                           ///< [m]
   double fraction(double s) const { return interpolate(fraction_, s); }  ///< I: 0 at s >= h, 1/2 at 0, 1 at s <= -h
   double slope(double s) const { return interpolate(slope_, s) / h_; }   ///< dI/ds [m^-1], never positive
@@ -54,10 +57,11 @@ class WallKernel {
 
  private:
   template <class K>
-  void fit_to_lattice(const K& kernel, double spacing);
+  void fit_to_lattice(const K& kernel, double d);
   double interpolate(const std::vector<double>& table, double s) const;
 
   KernelShape shape_;
+  double full_;
   double h_;
   std::vector<double> fraction_, slope_, number_density_fraction_;  ///< over s / h in [-1, 1]; the slope times h
   double number_density_integral_;

@@ -127,3 +127,12 @@ TEMPLATE_TEST_CASE_SIG("at a corner the free fractions multiply", "[wall_kernel]
   CHECK(wall.no_slip_coefficient(walls, Vec<Dim>::Constant(0.5)) == 0);
   CHECK(std::isfinite(wall.no_slip_coefficient(walls, Vec<Dim>::Zero())));
 }
+
+TEMPLATE_TEST_CASE_SIG("snow is full where its lattice is, and at 1 with the cubic spline over two spacings",
+                       "[wall_kernel]", ((int Dim), Dim), 2, 3) {
+  const double d = 0.105;
+  CHECK(WallKernel<Dim>(2 * d, d).full() == 1);
+  const double ratio = GENERATE(1.6, 2.0, 3.0), h = ratio * d, unit = lattice_sum(CubicSpline<Dim>(2 * d), d);
+  CHECK(WallKernel<Dim>(h, d).full() == Approx(lattice_sum(CubicSpline<Dim>(h), d) / unit));
+  CHECK(WallKernel<Dim>(h, d, KernelShape::wendland).full() == Approx(lattice_sum(Wendland<Dim>(h), d) / unit));
+}
