@@ -91,7 +91,7 @@ double typical_step(const Scene& scene) {
   const double speed = typical_speed(scene);
   double dt = scene.scene.max_step;
   if (scene.dense_flow) {
-    const double spacing = scene.dense_flow->support_radius / 2;
+    const double spacing = scene.dense_flow->spacing();
     const double signal = scene.dense_flow->solver == "wcsph" ? 10 * speed : speed;
     dt = std::min(dt, scene.dense_flow->cfl * spacing / signal);
   }
@@ -126,7 +126,7 @@ Plan plan_scene(const Scene& scene) {
   const auto& upper = scene.domain.upper;
   const double width = scene.scene.dim == 3 ? upper[1] - lower[1] : 1;
   if (scene.dense_flow) {
-    const double particle = std::pow(scene.dense_flow->support_radius / 2, scene.scene.dim);
+    const double particle = std::pow(scene.dense_flow->spacing(), scene.scene.dim);
     for (const ReleaseSection& release : scene.release)
       plan.n_release += std::round(release_volume(release, width, scene.scene.dim) / particle);
     if (scene.cover && scene.terrain) {
@@ -184,8 +184,8 @@ void require_fit(const Scene& scene, const Plan& plan, const std::filesystem::pa
   if (!(n_particles <= countable))
     refuse(
         fmt::format("there would be {:.3g} released and {:.3g} cover particles, at most 1e9 can be: their spacing is "
-                    "half of dense_flow.support_radius = {} m",
-                    plan.n_release, plan.n_cover, scene.dense_flow->support_radius));
+                    "{} m, dense_flow.support_radius over dense_flow.support_ratio",
+                    plan.n_release, plan.n_cover, scene.dense_flow->spacing()));
   const double memory = 0.8 * memory_available(), disk = disk_available(folder);
   if (!(plan.memory <= memory))
     refuse(

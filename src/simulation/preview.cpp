@@ -34,7 +34,7 @@ void add_snow(PreviewFrame& frame, const DenseFlow<2>& dense) {
     frame.snow.push_back(p.position[i]);
     frame.snow_kind.push_back(p.entrained_at[i] >= 0);
   }
-  frame.snow_radius = dense.options().spacing() / 2;
+  frame.snow_radius = dense.options().spacing / 2;
 }
 
 void add_smoke(PreviewFrame& frame, const Suspension<2>& suspension) {

@@ -141,7 +141,7 @@ double filled_share(const SmokeSection& shape, const MacGrid<Dim>& grid, const I
 template <int Dim>
 ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls) {
   ReleasedSnow<Dim> snow;
-  const double d = scene.dense_flow->support_radius / 2, margin = 0.25 * d;
+  const double d = scene.dense_flow->spacing(), margin = 0.25 * d;
   for (std::size_t r = 0; r < scene.release.size(); ++r) {
     const ReleaseSection& release = scene.release[r];
     SnowKind<Dim> kind;

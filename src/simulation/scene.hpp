@@ -76,14 +76,16 @@ struct SmokeSection {
 };
 
 struct DenseFlowSection {
-  std::string solver = "dfsph";        ///< "dfsph" | "wcsph"
-  double support_radius = 0.21;        ///< h [m]; the spacing is h / 2
-  double density = 300;                ///< [kg m^-3]
-  double viscosity = 0;                ///< mu [Pa s]
-  std::string wall = "slip";           ///< "slip" | "no_slip": of the viscous stress at walls
-  double density_tolerance = 5e-4;     ///< mean compression allowed
-  double divergence_tolerance = 1e-1;  ///< mean rate of compression allowed, in percent of the volume a step
-  double relative_tolerance = 0;       ///< compression left over what the velocities alone would make; 0: not asked for
+  std::string solver = "dfsph";         ///< "dfsph" | "wcsph"
+  std::string kernel = "cubic_spline";  ///< "cubic_spline" | "wendland"
+  double support_radius = 0.21;         ///< h [m]
+  double support_ratio = 2;             ///< h over the particle spacing
+  double density = 300;                 ///< [kg m^-3]
+  double viscosity = 0;                 ///< mu [Pa s]
+  std::string wall = "slip";            ///< "slip" | "no_slip": of the viscous stress at walls
+  double density_tolerance = 5e-4;      ///< mean compression allowed
+  double divergence_tolerance = 1e-1;   ///< mean rate of compression allowed, in percent of the volume a step
+  double relative_tolerance = 0;        ///< compression left over what the velocities alone would make; 0: off
   int max_iterations = 100;
   double cfl = 0.4;                            ///< of the spacing
   double sound_speed = 0;                      ///< [m s^-1] (wcsph); 0: ten times the largest speed expected
@@ -92,6 +94,8 @@ struct DenseFlowSection {
   std::string friction_acts_on = "column";     ///< "column" | "base" | "none"
   double compaction_time = 0.1;                ///< [s]; 0: off (R20)
   std::string neighbour_search = "cell_list";  ///< "cell_list" | "kd_tree"
+
+  double spacing() const { return support_radius / support_ratio; }  ///< d of the particles [m]
 };
 
 struct CoverSection {

@@ -167,7 +167,7 @@ class Reader {
 
   /// Puts the thickness of slabs that are told by their layers into release.thickness.
   void count_layers() {
-    if (!scene_.dense_flow || !report_.good({"dense_flow.support_radius"})) return;
+    if (!scene_.dense_flow || !report_.good({"dense_flow.support_radius", "dense_flow.support_ratio"})) return;
     for (std::size_t i = 0; i < scene_.release.size(); ++i) {
       const std::string section = numbered("release", i, scene_.release.size());
       const std::string path = section + ".layers", thickness = section + ".thickness";
@@ -176,7 +176,7 @@ class Reader {
       if (places_.contains(thickness)) {
         contradict(path, thickness);
       } else {
-        scene_.release[i].thickness = layers * scene_.dense_flow->support_radius / 2;
+        scene_.release[i].thickness = layers * scene_.dense_flow->spacing();
         places_[thickness] = place_of(places_, path);
       }
     }

@@ -68,11 +68,9 @@ class Warner {
     if (!s.dense_flow && !s.suspension) add("domain", "nothing to compute: neither [dense_flow] nor [suspension]");
   }
 
-  double spacing() const { return scene_.dense_flow->support_radius / 2; }
-
   void sizes() {
     if (!scene_.dense_flow) return;
-    const double d = spacing();
+    const double d = scene_.dense_flow->spacing();
     if (scene_.cover && scene_.cover->depth < d)
       add("cover.depth", fmt::format("a cover of {} m is thinner than one particle of {} m",
                                      number_text(scene_.cover->depth), number_text(d)));
@@ -113,7 +111,7 @@ class Warner {
   }
 
   void obstacles() {
-    const double of_snow = scene_.dense_flow ? 2 * spacing() : 0;
+    const double of_snow = scene_.dense_flow ? 2 * scene_.dense_flow->spacing() : 0;
     const double least = std::max(of_snow, scene_.suspension ? 2 * scene_.suspension->cell_size : 0);
     for (std::size_t i = 0; i < scene_.obstacle.size(); ++i) {
       const ObstacleSection& obstacle = scene_.obstacle[i];

@@ -86,8 +86,9 @@ std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls
   layer.depth = scene.cover->depth;
   layer.seed = scene.scene.seed;
   layer.relaxation_steps = scene.cover->relaxation_steps;
+  layer.support_radius = scene.dense_flow->support_radius;
   SnowKind<Dim> kind;
-  kind.spacing = scene.dense_flow->support_radius / 2;
+  kind.spacing = scene.dense_flow->spacing();
   kind.density = scene.cover->density;
   kind.first_id = first_id;
   return sample_cover<Dim>(*walls.terrain, layer, kind, walls.obstacles);
@@ -99,6 +100,8 @@ std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Di
   const DenseFlowSection& section = *scene.dense_flow;
   DenseFlowOptions options;
   options.support_radius = section.support_radius;
+  options.spacing = section.spacing();
+  if (section.kernel == "wendland") options.kernel = KernelShape::wendland;
   options.density = section.density;
   options.solver = section.solver == "wcsph" ? DenseSolver::wcsph : DenseSolver::dfsph;
   options.viscosity = section.viscosity;
@@ -153,7 +156,7 @@ std::optional<CouplingOptions> make_coupling(const Scene& scene) {
   if (!scene.coupling) return std::nullopt;
   const CouplingSection& section = *scene.coupling;
   if (!section.drag && !section.lift && !section.generation && !section.adhesion) return std::nullopt;
-  const double spacing = scene.dense_flow->support_radius / 2;
+  const double spacing = scene.dense_flow->spacing();
   const double initial_mass = scene.dense_flow->density * std::pow(spacing, scene.scene.dim);
   CouplingOptions options;
   options.overlap_fraction = section.overlap_fraction;

@@ -53,7 +53,7 @@ Simulation<Dim>::Simulation(const Scene& scene)
   }
   if (suspension_ && !scene_.smoke.empty()) suspension_->set_smoke_mass(initial_smoke<Dim>(scene_, *suspension_));
   if (suspension_ && dense_)
-    n_interior_ = interior_number_density<Dim>(dense_->options().spacing(), dense_->options().support_radius);
+    n_interior_ = interior_number_density<Dim>(dense_->options().spacing, dense_->options().support_radius);
   n_dense_initial_ = dense_ ? dense_->particles.size() : 0;
   if (dense_)
     for (const Vec<Dim>& v : dense_->particles.velocity) first_speed_ = std::max(first_speed_, v.norm());
@@ -156,7 +156,7 @@ void Simulation<Dim>::advance_dense_flow() {
   Particles<Dim>& p = dense_->particles;
   if (bed_friction_ || entrainment_) {
     const auto timed = stages_.time("dense_flow.columns");
-    build_columns<Dim>(columns_, *walls_.terrain, p, cover_ ? &*cover_ : nullptr, dense_->options().spacing(),
+    build_columns<Dim>(columns_, *walls_.terrain, p, cover_ ? &*cover_ : nullptr, dense_->options().spacing,
                        dense_->options().support_radius);
   }
   if (bed_friction_) {

@@ -21,7 +21,7 @@ inline constexpr double artificial_viscosity = 0.3;
 template <int Dim>
 class ArtificialViscosity {
  public:
-  explicit ArtificialViscosity(double support_radius) : d_(support_radius / 2) {}
+  explicit ArtificialViscosity(double spacing) : d_(spacing) {}
 
   void apply(Particles<Dim>& particles, const Neighbours<Dim>& neighbours, const std::vector<double>& wave_speed,
              double dt);

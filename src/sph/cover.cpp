@@ -9,7 +9,7 @@ namespace {
 
 template <int Dim>
 void sort_by_cell(Cover<Dim>& cover) {
-  cover.cells = CellList<Dim>(cover.bin_size);
+  cover.cells = CellList<Dim>(std::max(cover.bin_size, cover.support_radius));
   cover.cells.build(cover.particles);
   cover.cells.release_scratch();
   const auto reorder = [&](auto& array) {

@@ -17,9 +17,10 @@ namespace spindrift {
 /// State are particles, foot and hazard; the rest is derived by index_cover and settle_surface.
 template <int Dim>
 struct Cover {
-  double spacing = 0;    ///< d [m]
-  double density = 0;    ///< rho_a [kg m^-3]
-  double thickness = 0;  ///< initial depth, normal to the ground [m]
+  double spacing = 0;         ///< d [m]
+  double density = 0;         ///< rho_a [kg m^-3]
+  double thickness = 0;       ///< initial depth, normal to the ground [m]
+  double support_radius = 0;  ///< h of the flow above [m]; 0: at most 2 d
 
   Particles<Dim> particles;
   std::vector<Foot<Dim>> foot;  ///< of every slot, as sampled
@@ -29,7 +30,7 @@ struct Cover {
   Vec<Dim - 1> ground_lower = Vec<Dim - 1>::Constant(-std::numeric_limits<double>::infinity());
   Vec<Dim - 1> ground_upper = Vec<Dim - 1>::Constant(std::numeric_limits<double>::infinity());
 
-  CellList<Dim> cells{1};              ///< of the particles, of size h = 2 d; dead slots included
+  CellList<Dim> cells{1};              ///< of the particles, of size h or 2 d, the larger; dead slots included
   double bin_size = 0;                 ///< 2 d [m]
   GroundBin<Dim> lower{}, shape{};     ///< the block of bins that holds all live slots
   std::vector<std::uint32_t> first;    ///< of each bin of the block in `members`, and the end

@@ -22,6 +22,7 @@ DenseFlowOptions checked(const DenseFlowOptions& o) {
   };
   const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
   require(positive(o.support_radius), "support_radius must be positive");
+  require(o.spacing > 0 && o.spacing < o.support_radius, "spacing must be positive and less than support_radius");
   require(positive(o.density), "density must be positive");
   require(o.viscosity >= 0 && std::isfinite(o.viscosity), "viscosity must not be negative");
   require(positive(o.pressure.density_tolerance), "density_tolerance must be positive");
@@ -59,11 +60,11 @@ void check_velocities(const Particles<Dim>& particles, const char* after) {
 template <int Dim>
 DenseFlow<Dim>::DenseFlow(const DenseFlowOptions& options)
     : options_(checked(options)),
-      wall_kernel_(options.support_radius),
+      wall_kernel_(options.support_radius, options.spacing, options.kernel),
       cells_(options.support_radius),
-      pressure_solver_(options.pressure, options.support_radius),
-      viscosity_solver_(options.support_radius),
-      artificial_viscosity_(options.support_radius) {}
+      pressure_solver_(options.pressure, options.support_radius, options.spacing),
+      viscosity_solver_(options.spacing),
+      artificial_viscosity_(options.spacing) {}
 
 template <int Dim>
 void DenseFlow<Dim>::sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages) {
@@ -139,7 +140,7 @@ void DenseFlow<Dim>::compact(double dt, double time) {
 template <int Dim>
 double DenseFlow<Dim>::time_step_limit(double cfl, double gravity) const {
   if (particles.empty()) return std::numeric_limits<double>::infinity();
-  const double d = options_.spacing();
+  const double d = options_.spacing;
   const double fastest = std::sqrt(
       parallel_max(particles.size(), 0.0, [&](std::size_t i) { return particles.velocity[i].squaredNorm(); }));
   const double limit = std::min(cfl * d / fastest, cfl * std::sqrt(d / gravity));

@@ -16,16 +16,16 @@ namespace spindrift {
 enum class DenseSolver { dfsph, wcsph };
 
 struct DenseFlowOptions {
-  double support_radius = 0.21;  ///< h [m]; the spacing is h / 2
-  double density = 300;          ///< rest density [kg m^-3]
+  double support_radius = 0.21;  ///< h [m]
+  double spacing = 0.105;        ///< d [m], less than h
+  KernelShape kernel = KernelShape::cubic_spline;
+  double density = 300;  ///< rest density [kg m^-3]
   DenseSolver solver = DenseSolver::dfsph;
   double viscosity = 0;      ///< mu [Pa s]; 0: the viscous solve does not exist
   bool no_slip = false;      ///< walls and cover hold the snow by viscosity
   PressureOptions pressure;  ///< of dfsph
   double sound_speed = 0;    ///< of wcsph [m s^-1]; positive there
   NeighbourSearch neighbour_search = NeighbourSearch::cell_list;
-
-  double spacing() const { return support_radius / 2; }
 };
 
 /// What left a set of particles.

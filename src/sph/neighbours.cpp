@@ -9,7 +9,6 @@
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "sph/kd_tree.hpp"
-#include "sph/kernels.hpp"
 #include "sph/lanes.hpp"
 
 namespace spindrift {
@@ -21,7 +20,6 @@ struct Neighbours<Dim>::Input {
   const Walls<Dim>& walls;
   const WallKernel<Dim>& wall_kernel;
   const CoverView<Dim>& cover;
-  CubicSpline<Dim> kernel;
   bool no_slip;
   std::optional<Tree<Dim>> tree;
 };
@@ -40,15 +38,18 @@ void Neighbours<Dim>::find(const Particles<Dim>& particles, const CellList<Dim>&
   gradient_sum_.resize(n);
   if (no_slip) no_slip_.resize(n);
   const Points<Dim> points{particles.position};
-  Input input{particles, cells, walls, wall_kernel, cover, CubicSpline<Dim>(wall_kernel.support_radius()), no_slip, {}};
+  Input input{particles, cells, walls, wall_kernel, cover, no_slip, {}};
   if (search == NeighbourSearch::kd_tree)
     input.tree.emplace(Dim, points, nanoflann::KDTreeSingleIndexAdaptorParams(tree_leaf));
-  auto body = [&](std::size_t begin, std::size_t end) { find_block(begin, end, input); };
-  parallel_blocks(n, block_size, body);
+  with_kernel<Dim>(wall_kernel.shape(), wall_kernel.support_radius(), [&](const auto& kernel) {
+    auto body = [&](std::size_t begin, std::size_t end) { find_block(begin, end, input, kernel); };
+    parallel_blocks(n, block_size, body);
+  });
 }
 
 template <int Dim>
-void Neighbours<Dim>::find_block(std::size_t begin, std::size_t end, const Input& input) {
+template <class K>
+void Neighbours<Dim>::find_block(std::size_t begin, std::size_t end, const Input& input, const K& kernel) {
   Block& block = blocks_[begin / block_size];
   const Particles<Dim>& particles = input.particles;
   std::size_t c = input.cells.cell_of(static_cast<std::uint32_t>(begin));
@@ -66,8 +67,8 @@ void Neighbours<Dim>::find_block(std::size_t begin, std::size_t end, const Input
         find_candidates(i, block, input);
         block.gather(particles);
       }
-      find_row(i, block, input);
-      add_boundary(i, cover_runs, input);
+      find_row(i, block, input, kernel);
+      add_boundary(i, cover_runs, input, kernel);
     }
   }
 }
@@ -77,7 +78,7 @@ void Neighbours<Dim>::find_block(std::size_t begin, std::size_t end, const Input
 template <int Dim>
 void Neighbours<Dim>::find_candidates(std::size_t i, Block& block, const Input& input) {
   constexpr double margin = 1 + 1e-9;
-  const double h = input.kernel.h;
+  const double h = input.wall_kernel.support_radius();
   input.tree->radiusSearch(input.particles.position[i].data(), h * h * margin, block.found,
                            nanoflann::SearchParams(0, 0, false));
   block.candidate.clear();
@@ -101,8 +102,8 @@ void Neighbours<Dim>::Block::gather(const Particles<Dim>& particles) {
 }
 
 template <int Dim>
-void Neighbours<Dim>::find_row(std::size_t i, Block& block, const Input& input) {
-  const CubicSpline<Dim>& kernel = input.kernel;
+template <class K>
+void Neighbours<Dim>::find_row(std::size_t i, Block& block, const Input& input, const K& kernel) {
   const std::size_t n = block.candidate.size();
   const std::uint32_t first = i % block_size == 0 ? 0 : row_end_[i - 1];
   if (block.index.size() < first + n) {
@@ -137,8 +138,8 @@ void Neighbours<Dim>::find_row(std::size_t i, Block& block, const Input& input) 
     const std::uint32_t m = hit[k];
     index[k] = candidate[m];
     const float q = std::sqrt(static_cast<float>(distance_squared[m])) * inverse_h;
-    const float slope = CubicSpline<Dim>::slope(q) * slope_scale;
-    value[k] = CubicSpline<Dim>::shape(q);
+    const float slope = K::slope(q) * slope_scale;
+    value[k] = K::shape(q);
     for (int a = 0; a < Dim; ++a)
       gradient[k * Dim + static_cast<std::size_t>(a)] = slope * static_cast<float>(x_i[a] - x[a][m]);
   }
@@ -157,8 +158,9 @@ void Neighbours<Dim>::find_row(std::size_t i, Block& block, const Input& input) 
 }
 
 template <int Dim>
-void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input) {
-  const CubicSpline<Dim>& kernel = input.kernel;
+template <class K>
+void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input,
+                                   const K& kernel) {
   const Vec<Dim>& x = input.particles.position[i];
   const WallShare<Dim> walls = input.wall_kernel.share(input.walls, x);
   double share = walls.fraction;
@@ -181,7 +183,7 @@ void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::
   if (const double weight = normal.squaredNorm(); weight > 0)
     gradient += (cover_gradient.dot(normal) / weight) * normal;
   volume_sum_[i] += share;
-  full_[i] = std::max(1.0, share + input.particles.volume[i] * kernel.sigma);
+  full_[i] = std::max(input.wall_kernel.full(), share + input.particles.volume[i] * kernel.sigma);
   boundary_[i] = gradient;
   gradient_sum_[i] += 2 * gradient;
   if (input.no_slip) no_slip_[i] = drag;

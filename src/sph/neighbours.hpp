@@ -62,8 +62,9 @@ class Neighbours {
   std::size_t n_pairs() const;
 
   const std::vector<double>& volume_sum() const { return volume_sum_; }  ///< delta
-  /// The volume sum that counts as full: 1, or what cover, walls and the particle alone make up where that is more.
-  /// Snow that is wedged in between them cannot get thinner, and pressure that tried would grow without bound.
+  /// The volume sum that counts as full: that of WallKernel, or what cover, walls and the particle alone make up where
+  /// that is more. Snow that is wedged in between them cannot get thinner, and pressure that tried would grow without
+  /// bound.
   const std::vector<double>& full() const { return full_; }
   const std::vector<Vec<Dim>>& boundary_gradient() const { return boundary_; }  ///< b [m^-1]
   const std::vector<Vec<Dim>>& gradient_sum() const { return gradient_sum_; }   ///< G [m^-1]
@@ -86,10 +87,13 @@ class Neighbours {
     std::size_t bytes() const;
   };
   struct Input;
-  void find_block(std::size_t begin, std::size_t end, const Input& input);
+  template <class K>
+  void find_block(std::size_t begin, std::size_t end, const Input& input, const K& kernel);
   void find_candidates(std::size_t i, Block& block, const Input& input);
-  void find_row(std::size_t i, Block& block, const Input& input);
-  void add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input);
+  template <class K>
+  void find_row(std::size_t i, Block& block, const Input& input, const K& kernel);
+  template <class K>
+  void add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input, const K& kernel);
 
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> row_end_;  ///< within the particle's block

@@ -14,8 +14,9 @@ namespace {
 /// on the lattice and more where it is disturbed; extrapolation is stable below 4/3 of its inverse.
 constexpr float relaxation = 0.35f;
 
-/// Of the diagonal m / V dD_i/dp_i in units of h^-2: a quarter of its value on the lattice (2.1 in 2D, 1.7 in 3D), so
-/// that a particle with few neighbours, or coincident ones, is not flung away.
+/// Of the diagonal m / V dD_i/dp_i in units of h^-2, with h = 2 d: a quarter of its value on the lattice (2.1 in 2D,
+/// 1.7 in 3D), which goes with the volume of a particle over that of the support, so that a particle with few
+/// neighbours, or coincident ones, is not flung away.
 constexpr double least_diagonal = 0.5;
 
 /// The most compression that one step takes back, and the fastest [s^-1]: a particle that is wedged in can never be
@@ -57,6 +58,12 @@ inline Lanes<Dim> row_sum(std::size_t n, F&& f) {
 }  // namespace
 
 template <int Dim>
+PressureSolver<Dim>::PressureSolver(const PressureOptions& options, double support_radius, double spacing)
+    : options_(options),
+      h_(support_radius),
+      least_diagonal_(least_diagonal * std::pow(2 * spacing / support_radius, Dim)) {}
+
+template <int Dim>
 void PressureSolver<Dim>::prepare(const Particles<Dim>& particles, const Neighbours<Dim>& neighbours, double dt) {
   const std::size_t n = particles.size();
   for (auto* array : {&excess_, &residual_, &step_, &pressure_, &previous_, &volume_pressure_, &mobility_, &volume_})
@@ -85,7 +92,7 @@ void PressureSolver<Dim>::prepare(const Particles<Dim>& particles, const Neighbo
         const double volume = particles.volume[i], mobility = volume / particles.mass[i];
         rate += 2 * v.dot(neighbours.boundary_gradient()[i]);
         const double own = mobility * g_sum.squaredNorm() + volume * squares;
-        const double diagonal = std::max(own, mobility * least_diagonal / (h_ * h_));
+        const double diagonal = std::max(own, mobility * least_diagonal_ / (h_ * h_));
         excess_[i] =
             static_cast<float>(dt * rate - allowed_compression(neighbours.full()[i] - neighbours.volume_sum()[i], dt));
         // Where pressure hardly moves the particle, each step would add to the last one's and none would help.

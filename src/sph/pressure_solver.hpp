@@ -30,7 +30,7 @@ inline constexpr double compression_relaxation = 0.4;
 /// Pressure p >= 0 acts by F_i = -V_i [sum_j V_j (p_i + p_j) grad W_ij + 2 p_i b_i], mass enters by a = F / m only.
 /// Its adjoint is the rate of compression D_i(v) = sum_j V_j (v_i - v_j) . grad W_ij + 2 v_i . b_i, b of Neighbours.
 /// One solve does the work of DFSPH's two: v += dt a(p) such that, with k = compression_relaxation and e = full - delta
-/// (full: 1 but for snow wedged in, see Neighbours),
+/// (full: about 1 but for snow wedged in, see Neighbours),
 ///   dt D(v) <= max(k e, -0.005, -2.5 s^-1 dt)       where the volume sum delta is over full,
 ///   dt D(v) <= e [k + (1 - k) min(1, e / 0.1)]      else,
 /// with p > 0 only where equality holds. So full snow keeps its volume, compression is taken back over a few steps and
@@ -42,7 +42,7 @@ inline constexpr double compression_relaxation = 0.4;
 template <int Dim>
 class PressureSolver {
  public:
-  PressureSolver(const PressureOptions& options, double support_radius) : options_(options), h_(support_radius) {}
+  PressureSolver(const PressureOptions& options, double support_radius, double spacing);
 
   /// First guess and result: particles.pressure. boundary_impulse: += what walls and cover gave [kg m s^-1].
   /// Ends when the mean error r of dt D is at most compression_relaxation times density_tolerance and a hundredth of
@@ -67,6 +67,7 @@ class PressureSolver {
 
   PressureOptions options_;
   double h_;
+  double least_diagonal_;        ///< of m / V dD_i/dp_i, in units of h^-2
   std::vector<float> excess_;    ///< dt D(v) of the velocities given, minus the largest allowed
   std::vector<float> residual_;  ///< the same with the pressure's velocities
   std::vector<float> step_;      ///< relaxation / diagonal of dt^2 dD/dp

@@ -172,6 +172,7 @@ Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, co
   const double d = kind.spacing;
   Cover<Dim> cover;
   cover.spacing = d;
+  cover.support_radius = layer.support_radius;
   cover.density = kind.density;
   cover.thickness = std::max(layer.depth, 0.0);
   // Less d: a bin that the ground's end cuts may hold no particle.

@@ -36,6 +36,7 @@ struct CoverLayer {
   double depth = 0.525;  ///< normal to the ground [m]
   std::uint64_t seed = 1;
   int relaxation_steps = 40;  ///< at most
+  double support_radius = 0;  ///< h of the flow above [m]; 0: at most 2 d
 };
 
 /// The cover: pseudo-random places of number density 1/d^Dim in (arc length, y, normal distance), relaxed by mutual

@@ -27,7 +27,7 @@ void ViscositySolver<Dim>::find_coefficients(const Particles<Dim>& particles, co
   constexpr std::size_t block_size = Neighbours<Dim>::block_size;
   pairs_.resize((n + block_size - 1) / block_size);
   boundary_.resize(n);
-  const double softening = 0.01 * (h_ / 2) * (h_ / 2);
+  const double softening = 0.01 * d_ * d_;
   const bool no_slip = !neighbours.no_slip_coefficient().empty();
   auto body = [&](std::size_t begin, std::size_t end) {
     std::vector<float>& pairs = pairs_[begin / block_size];

@@ -19,7 +19,7 @@ namespace spindrift {
 template <int Dim>
 class ViscositySolver {
  public:
-  explicit ViscositySolver(double support_radius) : h_(support_radius) {}
+  explicit ViscositySolver(double spacing) : d_(spacing) {}
 
   /// viscosity: mu > 0 [Pa s]. boundary_impulse: += what no-slip walls and cover gave [kg m s^-1].
   /// Ends when the residual is 1e-6 of its start, or after 200 iterations.
@@ -33,7 +33,7 @@ class ViscositySolver {
                          double dt);
   void apply(const Neighbours<Dim>& neighbours, const std::vector<Vec<Dim>>& v, std::vector<Vec<Dim>>& out) const;
 
-  double h_;
+  double d_;
   std::vector<std::vector<float>> pairs_;  ///< dt mu V_i V_j k_ij [kg] of each pair, by block of rows
   std::vector<double> boundary_;           ///< dt mu V_i c_i [kg]
   std::vector<Vec<Dim>> residual_, direction_, product_;

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/memory.hpp"
-#include "sph/kernels.hpp"
 
 namespace spindrift {
 namespace {
@@ -49,38 +48,41 @@ std::vector<double> plane_integrals(F&& f) {
 }  // namespace
 
 template <int Dim>
-WallKernel<Dim>::WallKernel(double support_radius) : h_(support_radius) {
-  const CubicSpline<Dim> unit(1.0);
-  slope_ = plane_integrals<Dim>([&](double r) { return unit.value(r); });
+WallKernel<Dim>::WallKernel(double support_radius, double spacing, KernelShape shape)
+    : shape_(shape), h_(support_radius) {
+  with_kernel<Dim>(shape, 1.0,
+                   [&](const auto& unit) { slope_ = plane_integrals<Dim>([&](double r) { return unit.value(r); }); });
   fraction_ = integral_above(slope_);
   for (double& w : slope_) w = -w / fraction_.front();
   for (double& i : fraction_) i /= fraction_.front();
 
-  fit_to_lattice();
+  with_kernel<Dim>(shape, h_, [&](const auto& kernel) { fit_to_lattice(kernel, spacing); });
 
-  number_density_fraction_ =
-      integral_above(plane_integrals<Dim>([](double r) { return number_density_kernel(r, 1.0); }));
+  number_density_fraction_ = integral_above(
+      plane_integrals<Dim>([&](double r) { return number_density_kernel(r, 1.0, spacing / support_radius); }));
   const double total = number_density_fraction_.front();
   for (double& i : number_density_fraction_) i /= total;
   number_density_integral_ = total * std::pow(h_, Dim);
 }
 
-/// The rows of a lattice of spacing d that a wall at d/2 from its first row replaces: of them only the one at distance
-/// d lies inside the support.
+/// The rows of a lattice of spacing d that a wall at d/2 from its first row replaces, as far as they lie inside the
+/// first row's support: one where h = 2 d.
 template <int Dim>
-void WallKernel<Dim>::fit_to_lattice() {
-  const CubicSpline<Dim> kernel(h_);
-  const double d = h_ / 2;
+template <class K>
+void WallKernel<Dim>::fit_to_lattice(const K& kernel, double d) {
+  full_ = lattice_sum(kernel, d) / lattice_sum(CubicSpline<Dim>(2 * d), d);
+  const int reach = static_cast<int>(std::ceil(h_ / d));
   double value = 0, slope_value = 0;
   Index<Dim - 1> row;
-  row.fill(3);
-  for_each_index<Dim - 1>(row, [&](const Index<Dim - 1>& i) {
-    double r_squared = d * d;
-    for (const int k : i) r_squared += (k - 1) * (k - 1) * d * d;
-    const double r = std::sqrt(r_squared);
-    value += std::pow(d, Dim) * kernel.value(r);
-    slope_value += std::pow(d, Dim) * kernel.slope_over_r(r) * d;
-  });
+  row.fill(2 * reach + 1);
+  for (int depth = 1; depth <= reach; ++depth)
+    for_each_index<Dim - 1>(row, [&](const Index<Dim - 1>& i) {
+      double r_squared = depth * depth * d * d;
+      for (const int k : i) r_squared += (k - reach) * (k - reach) * d * d;
+      const double r = std::sqrt(r_squared);
+      value += std::pow(d, Dim) * kernel.value(r);
+      slope_value += std::pow(d, Dim) * kernel.slope_over_r(r) * (depth * d);
+    });
   double low = 0, high = h_;
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);

@@ -46,4 +46,16 @@ Series over_values(const Series& base, std::size_t level, std::string factor, st
   return series;
 }
 
+Series over_supports(const Series& base, std::size_t level, std::string factor, std::string kernel,
+                     const std::vector<double>& ratios) {
+  const Level& at = base.levels.at(level);
+  Series series{std::move(factor), fmt::format("{}, {}", kernel, at.label), base.settings, {}};
+  series.settings.push_back("dense_flow.kernel=" + kernel);
+  for (const double ratio : ratios)
+    series.levels.push_back({fmt::format("h/d = {}", ratio),
+                             {fmt::format("dense_flow.support_radius={}", ratio * at.size),
+                              fmt::format("dense_flow.support_ratio={}", ratio)}});
+  return series;
+}
+
 }  // namespace spindrift

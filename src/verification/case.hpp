@@ -90,4 +90,9 @@ Series first_levels(Series series, std::size_t n);
 Series over_values(const Series& base, std::size_t level, std::string factor, std::string key,
                    const std::vector<std::string>& values);
 
+/// A curve of a kernel over its support radius in particle spacings, at the spacing of the level of `base` with that
+/// number, which is its size [m].
+Series over_supports(const Series& base, std::size_t level, std::string factor, std::string kernel,
+                     const std::vector<double>& ratios);
+
 }  // namespace spindrift

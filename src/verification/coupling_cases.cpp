@@ -13,7 +13,7 @@ namespace {
 
 template <int Dim>
 double particle_radius(const Simulation<Dim>& simulation) {
-  return simulation.dense()->options().spacing() / 2;
+  return simulation.dense()->options().spacing / 2;
 }
 
 /// k of Eq. (10) per mass of snow: the law "air" counts the air that the snow displaces alone.

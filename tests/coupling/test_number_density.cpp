@@ -19,6 +19,7 @@ struct Probe {
   DenseFlow<Dim> dense{[] {
     DenseFlowOptions options;
     options.support_radius = 2 * d;
+    options.spacing = d;
     return options;
   }()};
   Particles<Dim> cover;
@@ -59,7 +60,7 @@ double lattice_sum(double spacing, double h) {
     double r2 = 0;
     for (const int k : i) r2 += spacing * spacing * (k - 5) * (k - 5);
     const double r = std::sqrt(r2);
-    if (r > 0 && r < h) n += r < h / 2 ? 1 : (h - r) / r;
+    if (r > 0 && r < h) n += (h - r) / r;
   });
   return n;
 }

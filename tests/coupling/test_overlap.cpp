@@ -16,6 +16,7 @@ template <int Dim>
 DenseFlow<Dim> block(const Vec<Dim>& shift, int rows) {
   DenseFlowOptions options;
   options.support_radius = 2 * d;
+  options.spacing = d;
   DenseFlow<Dim> dense(options);
   Index<Dim> shape;
   shape.fill(Dim == 2 ? 24 : 10);
@@ -76,6 +77,7 @@ TEMPLATE_TEST_CASE_SIG("C10: snow that flies alone is overlap, no snow has none"
                        3) {
   DenseFlowOptions options;
   options.support_radius = 2 * d;
+  options.spacing = d;
   DenseFlow<Dim> dense(options);
   const Walls<Dim> walls = floor_at<Dim>(-40);
   Stages stages;

@@ -59,6 +59,7 @@ template <int Dim>
 DenseFlowOptions options_for(double d) {
   DenseFlowOptions options;
   options.support_radius = 2 * d;
+  options.spacing = d;
   return options;
 }
 

@@ -26,7 +26,7 @@ struct Pair {
     Stages stages;
     flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
     if (p.id[0] == 1) std::swap(wave_speed[0], wave_speed[1]);
-    ArtificialViscosity<Dim>(2 * d).apply(p, flow.neighbours(), wave_speed, dt);
+    ArtificialViscosity<Dim>(d).apply(p, flow.neighbours(), wave_speed, dt);
   }
   Vec<Dim> velocity(std::uint64_t id) const { return flow.particles.velocity[flow.particles.id[0] == id ? 0 : 1]; }
 };

@@ -121,6 +121,7 @@ TEMPLATE_TEST_CASE_SIG("A pitted surface does not push along the slope", "[cover
   index_cover(cover);
   DenseFlowOptions options;
   options.support_radius = 2 * d;
+  options.spacing = d;
   DenseFlow<Dim> flow(options);
   flow.particles = sample_slab<Dim>(terrain, {.at = 1.5, .length = 1, .base = 0.45, .thickness = 0.3, .y = {0.2, 0.8}},
                                     {.spacing = d});

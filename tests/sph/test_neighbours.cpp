@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <nanoflann.hpp>
+#include <type_traits>
 
 #include "fluid_fixture.hpp"
 #include "sph/kernels.hpp"
@@ -23,8 +24,10 @@ struct Cloud {
 };
 
 template <int Dim>
-DenseFlow<Dim> shaken_block(double d) {
-  DenseFlow<Dim> flow(options_for<Dim>(d));
+DenseFlow<Dim> shaken_block(double d, KernelShape kernel = KernelShape::cubic_spline) {
+  DenseFlowOptions options = options_for<Dim>(d);
+  options.kernel = kernel;
+  DenseFlow<Dim> flow(options);
   Index<Dim> n;
   n.fill(Dim == 2 ? 25 : 9);
   add_block<Dim>(flow.particles, n, d, 300, Vec<Dim>::Constant(0.3));
@@ -88,10 +91,12 @@ TEMPLATE_TEST_CASE_SIG("pair gradients are right and antisymmetric to the last b
   }
 }
 
-TEMPLATE_TEST_CASE_SIG("sums over neighbours, cover and walls match brute force", "[neighbours]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("sums over neighbours, cover and walls match brute force", "[neighbours]",
+                       ((int Dim, class Shape), Dim, Shape), (2, CubicSplineShape), (3, CubicSplineShape),
+                       (2, WendlandShape)) {
   const double d = 0.05, h = 2 * d;
-  DenseFlow<Dim> flow = shaken_block<Dim>(d);
+  DenseFlow<Dim> flow =
+      shaken_block<Dim>(d, std::is_same_v<Shape, WendlandShape> ? KernelShape::wendland : KernelShape::cubic_spline);
   auto& p = flow.particles;
   const Walls<Dim> walls = box<Dim>(Vec<Dim>::Constant(5));
   for (auto& x : p.position) x -= Vec<Dim>::Constant(0.28);
@@ -106,7 +111,7 @@ TEMPLATE_TEST_CASE_SIG("sums over neighbours, cover and walls match brute force"
   std::vector<Vec<Dim>> normals;
   for (const Vec<Dim>& x : cover.position) normals.push_back((Vec<Dim>::Unit(Dim - 1) + 0.5 * x).normalized());
   flow.sort_and_find_neighbours(walls, {&cover, &cover_cells, &normals}, stages);
-  const CubicSpline<Dim> kernel(h);
+  const Kernel<Dim, Shape> kernel(h);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const WallShare<Dim> wall = flow.wall_kernel().share(walls, p.position[i]);
     double sum = wall.fraction;

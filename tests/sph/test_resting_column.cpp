@@ -20,6 +20,7 @@ struct Rest {
 Rest column(int rows, double end_time, DenseFlowOptions options) {
   const double depth = 1, d = depth / rows, g = 9.81;
   options.support_radius = 2 * d;
+  options.spacing = d;
   DenseFlow<2> flow(options);
   auto& p = flow.particles;
   add_block<2>(p, {20, rows}, d, options.density, {0, 0});

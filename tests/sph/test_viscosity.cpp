@@ -26,7 +26,7 @@ TEMPLATE_TEST_CASE_SIG("viscosity keeps momentum, damps, and stops at rigid moti
   };
   const Vec<Dim> before = momentum(p);
   const double energy_before = energy();
-  ViscositySolver<Dim> solver(2 * d);
+  ViscositySolver<Dim> solver(d);
   Vec<Dim> impulse = Vec<Dim>::Zero();
   solver.solve(p, flow.neighbours(), mu, 0.01, impulse);
   const double scale = std::sqrt(energy_before * 300);
@@ -50,7 +50,7 @@ TEMPLATE_TEST_CASE_SIG("a shear wave decays at the viscous rate", "[viscosity]",
   flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
   for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = std::sin(k * p.position[i][Dim - 1]) * Vec<Dim>::Unit(0);
   const auto before = p.velocity;
-  ViscositySolver<Dim> solver(2 * d);
+  ViscositySolver<Dim> solver(d);
   Vec<Dim> impulse = Vec<Dim>::Zero();
   solver.solve(p, flow.neighbours(), mu, dt, impulse);
   for (std::size_t i = 0; i < p.size(); ++i) {

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
+#include <type_traits>
 
-#include "sph/kernels.hpp"
 #include "sph/wall_kernel.hpp"
 
 using namespace spindrift;
@@ -30,13 +30,20 @@ Walls<Dim> closed_box(double size) {
   return walls;
 }
 
+template <class Shape>
+constexpr KernelShape shape_of =
+    std::is_same_v<Shape, WendlandShape> ? KernelShape::wendland : KernelShape::cubic_spline;
+
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("wall integrals match sums over a fine lattice", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("wall integrals match sums over a fine lattice", "[wall_kernel]",
+                       ((int Dim, class Shape), Dim, Shape), (2, CubicSplineShape), (3, CubicSplineShape),
+                       (2, WendlandShape), (3, WendlandShape)) {
   const double h = 0.4;
   const int n = Dim == 2 ? 800 : 160;  // distances fall between the lattice's planes
-  const WallKernel<Dim> wall(h);
-  const CubicSpline<Dim> kernel(h);
+  const double d = GENERATE(0.2, 0.15);
+  const WallKernel<Dim> wall(h, d, shape_of<Shape>);
+  const Kernel<Dim, Shape> kernel(h);
   const double s = GENERATE(-0.35, -0.1, 0.0, 0.05, 0.2, 0.3, 0.39);
   const auto behind = [&](const Vec<Dim>& x) { return x[0] > s; };
   const double fraction = lattice_integral<Dim>(
@@ -45,14 +52,14 @@ TEMPLATE_TEST_CASE_SIG("wall integrals match sums over a fine lattice", "[wall_k
       h, n, [&](const Vec<Dim>& x) { return kernel.gradient(x)[0]; }, behind);
   CHECK(wall.fraction(s) == Approx(fraction).margin(2e-3));
   CHECK(wall.slope(s) * h == Approx(slope * h).margin(5e-3));
-  const auto number = [&](const Vec<Dim>& x) { return number_density_kernel(x.norm(), h); };
+  const auto number = [&](const Vec<Dim>& x) { return number_density_kernel(x.norm(), h, d); };
   const double all = lattice_integral<Dim>(h, n, number, [](const Vec<Dim>&) { return true; });
   CHECK(wall.number_density_fraction(s) == Approx(lattice_integral<Dim>(h, n, number, behind) / all).margin(3e-3));
   CHECK(wall.number_density_integral() == Approx(all).epsilon(3e-3));
 }
 
 TEMPLATE_TEST_CASE_SIG("wall integrals end where they must", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
-  const WallKernel<Dim> wall(0.2);
+  const WallKernel<Dim> wall(0.2, 0.1);
   CHECK(wall.fraction(0) == Approx(0.5).margin(2e-5));
   CHECK(wall.fraction(0.2) == 0);
   CHECK(wall.fraction(5) == 0);
@@ -64,23 +71,25 @@ TEMPLATE_TEST_CASE_SIG("wall integrals end where they must", "[wall_kernel]", ((
   CHECK(wall.slope(s) == Approx((wall.fraction(s + e) - wall.fraction(s - e)) / (2 * e)).margin(1e-3 / 0.2));
 }
 
-TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", "[wall_kernel]", ((int Dim), Dim), 2,
-                       3) {
-  const double d = 0.1, h = 2 * d;
-  const WallKernel<Dim> wall(h);
-  const CubicSpline<Dim> kernel(h);
+TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", "[wall_kernel]",
+                       ((int Dim, class Shape), Dim, Shape), (2, CubicSplineShape), (3, CubicSplineShape),
+                       (2, WendlandShape), (3, WendlandShape)) {
+  const double ratio = GENERATE(1.6, 2.0, 2.5, 3.0), d = 0.1, h = ratio * d;
+  CAPTURE(ratio);
+  const WallKernel<Dim> wall(h, d, shape_of<Shape>);
+  const Kernel<Dim, Shape> kernel(h);
   Walls<Dim> walls;
   walls.domain = {Vec<Dim>::Constant(-10), Vec<Dim>::Constant(10)};
   walls.domain.lower[Dim - 1] = 0;
   walls.sides[Dim - 1][0] = Side::closed;
   const WallShare<Dim> share = wall.share(walls, 0.5 * d * Vec<Dim>::Unit(Dim - 1));
   Index<Dim> shape;
-  shape.fill(5);
+  shape.fill(7);
   double sum = share.fraction, lattice = 0, shear = 0;
   Vec<Dim> gradient = 2 * share.gradient;
   for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
     Vec<Dim> x;  // of the particle, seen from its neighbour
-    for (int k = 0; k < Dim; ++k) x[k] = (2 - i[k]) * d;
+    for (int k = 0; k < Dim; ++k) x[k] = (3 - i[k]) * d;
     const double volume = std::pow(d, Dim);
     lattice += volume * kernel.value(x.norm());
     if (x[Dim - 1] > 0.5 * d) return;
@@ -98,7 +107,7 @@ TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", 
 
 TEMPLATE_TEST_CASE_SIG("at a corner the free fractions multiply", "[wall_kernel]", ((int Dim), Dim), 2, 3) {
   const double d = 0.1, h = 2 * d;
-  const WallKernel<Dim> wall(h);
+  const WallKernel<Dim> wall(h, d);
   const Walls<Dim> walls = closed_box<Dim>(1.0);
   Walls<Dim> floor = walls;
   for (int k = 0; k + 1 < Dim; ++k) floor.sides[k] = {Side::open, Side::open};
@@ -117,4 +126,13 @@ TEMPLATE_TEST_CASE_SIG("at a corner the free fractions multiply", "[wall_kernel]
   CHECK(wall.share(walls, Vec<Dim>::Constant(0.5)).fraction == 0);
   CHECK(wall.no_slip_coefficient(walls, Vec<Dim>::Constant(0.5)) == 0);
   CHECK(std::isfinite(wall.no_slip_coefficient(walls, Vec<Dim>::Zero())));
+}
+
+TEMPLATE_TEST_CASE_SIG("snow is full where its lattice is, and at 1 with the cubic spline over two spacings",
+                       "[wall_kernel]", ((int Dim), Dim), 2, 3) {
+  const double d = 0.105;
+  CHECK(WallKernel<Dim>(2 * d, d).full() == 1);
+  const double ratio = GENERATE(1.6, 2.0, 3.0), h = ratio * d, unit = lattice_sum(CubicSpline<Dim>(2 * d), d);
+  CHECK(WallKernel<Dim>(h, d).full() == Approx(lattice_sum(CubicSpline<Dim>(h), d) / unit));
+  CHECK(WallKernel<Dim>(h, d, KernelShape::wendland).full() == Approx(lattice_sum(Wendland<Dim>(h), d) / unit));
 }
