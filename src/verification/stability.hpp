@@ -45,10 +45,6 @@ struct TrialResult {
   bool good() const;
 };
 
-/// Kinetic energy of snow and air, and potential energy of snow, cover and smoke over the domain's lowest corner [J].
-template <int Dim>
-double mechanical_energy(const Simulation<Dim>& simulation);
-
 /// Runs it twice, the second time on one thread. It passes where every state was finite, masses and volumes positive,
 /// the mass ledger closed to 1e-10, mechanical energy did not grow by more than 5 %, the air's pressure converged,
 /// no step took longer than 2 s, `look` found nothing and both runs ended in the same bits.

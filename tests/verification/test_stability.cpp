@@ -5,6 +5,7 @@
 
 #include "simulation/scene_reader.hpp"
 #include "verification/cases.hpp"
+#include "verification/energy.hpp"
 #include "verification/stability.hpp"
 
 using namespace spindrift;
