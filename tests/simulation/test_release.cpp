@@ -33,6 +33,23 @@ TEST_CASE("Every shape of release holds its volume of snow", "[release]") {
   CHECK(snow_of(snow_2d + ground + "[release]\nlength = 3\nlayers = 4\n").particles.size() == 30 * 4);
 }
 
+TEST_CASE("The support radius over support_ratio is the spacing of all particles", "[release]") {
+  const std::string snow = box_2d +
+                           "[terrain]\nstart = [0, 8]\ndrop = 6\nangle = 0.5\n[cover]\n[release]\nlayers = 4\n" +
+                           "[dense_flow]\nsupport_radius = 0.3\nsupport_ratio = 3\nkernel = \"wendland\"\n";
+  const Scene scene = parse_scene(snow, "a.toml");
+  CHECK(scene.dense_flow->spacing() == Approx(0.1));
+  CHECK(scene.release[0].thickness == Approx(0.4));
+  const Walls<2> walls = make_walls<2>(scene);
+  const auto dense = make_dense_flow<2>(scene, walls);
+  CHECK(dense->options().spacing == scene.dense_flow->spacing());
+  CHECK(dense->options().kernel == KernelShape::wendland);
+  CHECK(dense->particles.volume[0] == Approx(0.01));
+  const auto cover = make_cover<2>(scene, walls, 0);
+  CHECK(cover->spacing == scene.dense_flow->spacing());
+  CHECK(cover->support_radius == 0.3);
+}
+
 TEST_CASE("A ball of snow in 3D holds its volume", "[release]") {
   const Scene scene = parse_scene(
       "schema_version = 1\n[scene]\ndim = 3\n[domain]\nlower = [0, 0, 0]\nupper = [4, 4, 4]\n"

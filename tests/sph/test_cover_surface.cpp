@@ -92,6 +92,19 @@ TEMPLATE_TEST_CASE_SIG("The rim of a cover on longer ground tilts, the ground's 
   CHECK(std::abs(rim_tilt(2)) < 0.05);
 }
 
+TEMPLATE_TEST_CASE_SIG("the cover's cells reach as far as the flow's kernel", "[cover]", ((int Dim), Dim), 2, 3) {
+  const Terrain<Dim> terrain = incline<Dim>(0.5);
+  const Cover<Dim> cover = sample_cover<Dim>(terrain, {.to = 2, .y = {0, 1}, .depth = 0.5, .support_radius = 3.5 * d},
+                                             {.spacing = d, .density = 100});
+  const auto& x = cover.particles.position;
+  const Vec<Dim> middle = terrain.position(0.5 * (Vec<Dim - 1>::Unit(0) + Vec<Dim - 1>::Ones()), 0.3);
+  std::size_t n = 0, n_near = 0;
+  for (const Vec<Dim>& at : x) n += (at - middle).norm() < 3.5 * d;
+  cover.cells.for_each_near(middle, [&](std::uint32_t c) { n_near += (x[c] - middle).norm() < 3.5 * d; });
+  CHECK(n > 10);
+  CHECK(n_near == n);
+}
+
 TEMPLATE_TEST_CASE_SIG("settle_surface finds what index_cover would", "[cover]", ((int Dim), Dim), 2, 3) {
   const Terrain<Dim> terrain = incline<Dim>(0.5);
   Cover<Dim> cover = sample_cover<Dim>(terrain, {.to = 4, .y = {0, 1}, .depth = 0.5}, {.spacing = d, .density = 100});
