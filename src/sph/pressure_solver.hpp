@@ -67,6 +67,7 @@ class PressureSolver {
 
   PressureOptions options_;
   double h_;
+  float relaxation_;             ///< of the Jacobi iteration, less over wide supports
   double least_diagonal_;        ///< of m / V dD_i/dp_i, in units of h^-2
   std::vector<float> excess_;    ///< dt D(v) of the velocities given, minus the largest allowed
   std::vector<float> residual_;  ///< the same with the pressure's velocities
