@@ -110,7 +110,7 @@ void add_snow(Registry& r) {
       .words<&F::solver>("solver", {"dfsph", "wcsph"}, "pressure: implicit on volume, or an equation of state", "R11")
       .words<&F::kernel>("kernel", {"cubic_spline", "wendland"}, "W; wendland: of class C2", "Eq. (4)")
       .number<&F::support_radius>("support_radius", "m", above(0, 100), "h, of the kernel", "Sec. 5")
-      .number<&F::support_ratio>("support_ratio", "", from(1.5, 4), "h over the particle spacing d", "Sec. 5")
+      .number<&F::support_ratio>("support_ratio", "", from(2, 4), "h over the particle spacing d", "Sec. 5")
       .number<&F::density>("density", "kg/m^3", above(0, 1e5), "of the flowing snow", "R20")
       .number<&F::viscosity>("viscosity", "Pa s", from(0, 1e6), "mu, of the flowing snow", "Eq. (2)")
       .words<&F::wall>("wall", {"slip", "no_slip"},

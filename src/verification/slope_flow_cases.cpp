@@ -200,7 +200,7 @@ Case viscous_film() {
   film.series = {refined,
                  over_values(refined, 1, "tolerance", "dense_flow.density_tolerance", {"5e-3", "5e-4", "5e-5", "5e-6"}),
                  over_values(refined, 1, "time step", "scene.max_step", {"6 ms", "3 ms", "1.5 ms", "0.75 ms"}),
-                 over_supports(refined, 1, "support radius", "cubic_spline", {1.6, 2, 2.5, 3}),
+                 over_supports(refined, 1, "support radius", "cubic_spline", {2, 2.5, 3}),
                  over_supports(refined, 1, "kernel", "wendland", {2, 2.5, 3})};
   film.least_order = 0.7;
   film.quick = true;

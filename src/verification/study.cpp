@@ -1,8 +1,11 @@
 #include "verification/study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/error.hpp"
 #include "simulation/scene_reader.hpp"
@@ -120,6 +123,8 @@ CaseResult run_case(const Case& what, const StudyOptions& options) {
       } catch (const Error& error) {
         if (error.code() == ExitCode::bug) throw;
         point.failure = error.what();
+      } catch (const std::out_of_range& error) {
+        point.failure = fmt::format("the result lies outside what the case looks at ({})", error.what());
       }
       if (options.on_point) options.on_point(what, point);
       result.points.push_back(std::move(point));
