@@ -1,4 +1,6 @@
 // Smoke that keeps coming as long as a run lasts.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "simulation/frame.hpp"
@@ -83,4 +85,25 @@ TEST_CASE("A step that is taken back gives its smoke once", "[smoke_source]") {
   const auto once = ten_steps_on();
   simulation.restore(state);
   CHECK(once == ten_steps_on());
+}
+
+TEST_CASE("B9: what sinks from a source is what rises from it with gravity turned over", "[smoke_source]") {
+  const auto plume = [](double gravity) {
+    Simulation<2> simulation(
+        scene_of("schema_version = 1\n[scene]\nend_time = 4\n[domain]\nlower = [-4, -4]\nupper = [4.1, 4]\nbottom = "
+                 "\"open\"\n[suspension]\n"
+                 "cell_size = 0.25\nsettling_speed = 0\ntolerance = 1e-10\n[smoke]\ndensity = 0\nrate = 0.2\n"
+                 "lower = [-0.25, -0.25]\nupper = [0.25, 0.25]\n",
+                 {fmt::format("domain.gravity=[0, {}]", gravity)}));
+    while (!simulation.done()) simulation.step();
+    return simulation;
+  };
+  const Simulation<2> falling = plume(-9.81), rising = plume(9.81);
+  const Field<2>&down = falling.suspension()->smoke_mass(), &up = rising.suspension()->smoke_mass();
+  const int n = down.shape()[1];
+  const double whole = falling.smoke_mass();
+  for_each_index<2>(down.shape(), [&](const Index<2>& cell) {
+    REQUIRE(std::abs(down[cell] - up[Index<2>{cell[0], n - 1 - cell[1]}]) < 1e-12 * whole);
+  });
+  CHECK(falling.suspension()->max_speed() > 0.5);
 }
