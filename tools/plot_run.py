@@ -177,7 +177,7 @@ def draw_cloud(axes, time, table, run):
 
 
 def draw_masses(axes, time, table, run):
-    names = ("dense", "cover", "smoke", "outflow", "deposited")
+    names = ("dense", "cover", "smoke", "injected", "outflow", "deposited")
     drawn = lines(axes, time, table, {"dense flow" if n == "dense" else n: f"mass_{n}_kg" for n in names})
     axes.set(title="mass by layer", ylabel="[kg/m of width]" if run.dim == 2 else "[kg]")
     if drawn > 1:
@@ -202,7 +202,7 @@ def draw_mass_error(axes, time, table, run):
         axes.ticklabel_format(axis="y", style="sci", scilimits=(0, 0))
     else:
         legend(axes)
-    axes.set(title="ledger: mass error", ylabel="relative to the initial mass")
+    axes.set(title="ledger: mass error", ylabel="relative to the mass brought in")
 
 
 def draw_sums(axes, time, table, entries, of, run):
@@ -233,6 +233,7 @@ def draw_air_momentum(axes, time, table, run):
         "flow": "exchange_on_grid",
         "flow's core": "air_core",
         "gravity on smoke": "gravity_on_smoke",
+        "source of smoke": "smoke_source",
         "sinking cover": "ground_on_air",
         "advection": "air_advection",
         "smoke's transport": "air_smoke_transport",

@@ -26,6 +26,7 @@ std::vector<Diagnostic> diagnostics(const Simulation<Dim>& s, const Instruments<
   number("mass_dense_kg", s.dense_mass());
   number("mass_cover_kg", s.cover_mass());
   number("mass_smoke_kg", s.smoke_mass());
+  number("mass_injected_kg", m.injected);
   number("mass_outflow_kg", m.outflow());
   number("mass_deposited_kg", m.deposited);
   number("mass_error", s.mass_error());
@@ -50,6 +51,7 @@ std::vector<Diagnostic> diagnostics(const Simulation<Dim>& s, const Instruments<
   vector("core_reaction", r.core_reaction);
   vector("particle_outflow", r.outflow);
   vector("gravity_on_smoke", r.gravity_on_smoke);
+  vector("smoke_source", r.smoke_source);
   vector("ground_on_air", r.ground_on_air);
   vector("air_core", r.suspension.core);
   vector("air_advection", r.suspension.advection);

@@ -12,6 +12,7 @@ namespace spindrift {
 /// Masses since the start [kg], in 2D per metre of width.
 struct MassLedger {
   double initial = 0;                                          ///< released snow, cover and smoke at the start
+  double injected = 0;                                         ///< smoke from sources
   double generated = 0;                                        ///< particles to smoke
   double adhered = 0;                                          ///< smoke to particles
   double entrained = 0;                                        ///< cover to dense flow
@@ -41,6 +42,7 @@ struct StepReport {
   Vec<Dim> exchange_on_fixed_faces = Vec<Dim>::Zero();  ///< on ground, core and what holds frozen air, see Exchange
   Vec<Dim> core_reaction = Vec<Dim>::Zero();            ///< air on the dense core
   Vec<Dim> outflow = Vec<Dim>::Zero();                  ///< with particles that left
+  Vec<Dim> smoke_source = Vec<Dim>::Zero();             ///< with smoke from sources, which moves with the air
   Vec<Dim> ground_on_air = Vec<Dim>::Zero();            ///< air that the sinking cover uncovers
   SuspensionBudget<Dim> suspension;
 };

@@ -180,10 +180,11 @@ void add_smoke(Registry& r) {
       .number<&ConfinementSection::strength>("strength", "", from(0, 100), "epsilon", "Eq. (8)");
 
   using M = SmokeSection;
-  Rows<&Scene::smoke>(r, "smoke", "snow smoke in the air at the start; there may be several")
+  Rows<&Scene::smoke>(r, "smoke", "snow smoke in the air: at the start, or given off; there may be several")
       .words<&M::shape>("shape", {"box", "ball", "polygon"},
                         "what it fills; polygon: in the x-z plane, in 3D over the whole breadth")
-      .number<&M::density>("density", "kg/m^3", above(0, 1e4), "rho_smoke", "Eq. (7)")
+      .number<&M::density>("density", "kg/m^3", from(0, 1e4), "rho_smoke at the start", "Eq. (7)")
+      .number<&M::rate>("rate", "kg/m^3/s", from(0, 1e4), "smoke that comes as long as the run lasts; rates add up")
       .with("shape", {"box"})
       .number<&M::lower>("lower", "m", position, "lower corner")
       .number<&M::upper>("upper", "m", position, "upper corner")

@@ -136,6 +136,16 @@ double filled_share(const SmokeSection& shape, const MacGrid<Dim>& grid, const I
   return open_fraction<Dim>(depth);
 }
 
+/// Calls act(cell, volume [m^Dim]) for every cell's air within a shape of smoke.
+template <int Dim, class F>
+void for_each_filled(const SmokeSection& shape, const Suspension<Dim>& suspension, F&& act) {
+  const MacGrid<Dim>& grid = suspension.grid();
+  for_each_index<Dim>(grid.cells, [&](const Index<Dim>& cell) {
+    const double share = filled_share<Dim>(shape, grid, cell);
+    if (share > 0) act(cell, share * suspension.ground().volume()[cell]);
+  });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -179,20 +189,29 @@ ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls) {
 
 template <int Dim>
 Field<Dim> initial_smoke(const Scene& scene, const Suspension<Dim>& suspension) {
-  const MacGrid<Dim>& grid = suspension.grid();
-  Field<Dim> smoke(grid.cells);
-  for (const SmokeSection& shape : scene.smoke) {
-    for_each_index<Dim>(grid.cells, [&](const Index<Dim>& cell) {
-      const double share = filled_share<Dim>(shape, grid, cell);
-      if (share > 0) smoke[cell] = share * shape.density * suspension.ground().volume()[cell];
-    });
-  }
+  Field<Dim> smoke(suspension.grid().cells);
+  for (const SmokeSection& shape : scene.smoke)
+    if (shape.density > 0)
+      for_each_filled<Dim>(shape, suspension,
+                           [&](const Index<Dim>& cell, double volume) { smoke[cell] = shape.density * volume; });
   return smoke;
+}
+
+template <int Dim>
+Field<Dim> smoke_rate(const Scene& scene, const Suspension<Dim>& suspension) {
+  Field<Dim> rate(suspension.grid().cells);
+  for (const SmokeSection& shape : scene.smoke)
+    if (shape.rate > 0)
+      for_each_filled<Dim>(shape, suspension,
+                           [&](const Index<Dim>& cell, double volume) { rate[cell] += shape.rate * volume; });
+  return rate;
 }
 
 template ReleasedSnow<2> released_snow<2>(const Scene&, const Walls<2>&);
 template ReleasedSnow<3> released_snow<3>(const Scene&, const Walls<3>&);
 template Field<2> initial_smoke<2>(const Scene&, const Suspension<2>&);
 template Field<3> initial_smoke<3>(const Scene&, const Suspension<3>&);
+template Field<2> smoke_rate<2>(const Scene&, const Suspension<2>&);
+template Field<3> smoke_rate<3>(const Scene&, const Suspension<3>&);
 
 }  // namespace spindrift

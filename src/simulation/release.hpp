@@ -1,5 +1,6 @@
 #pragma once
-/// What is there when the clock starts: the snow that a scene releases, and smoke in the air.
+/// What is there when the clock starts: the snow that a scene releases, and smoke in the air; and the smoke that keeps
+/// coming.
 
 #include <vector>
 
@@ -31,8 +32,13 @@ template <int Dim>
 ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls);
 
 /// Smoke of each cell [kg], from the shapes of [smoke]: density times open volume times the share of the cell that the
-/// shape fills. Later ones replace earlier ones.   Pre: the suspension's ground is set.
+/// shape fills. Later ones replace earlier ones, but where they have none.   Pre: the suspension's ground is set.
 template <int Dim>
 Field<Dim> initial_smoke(const Scene& scene, const Suspension<Dim>& suspension);
+
+/// Smoke that each cell is given [kg s^-1], from the shapes of [smoke] in the same way, but that all of them add up.
+/// The open volume is that of the call: ground that sinks later gives off nothing.
+template <int Dim>
+Field<Dim> smoke_rate(const Scene& scene, const Suspension<Dim>& suspension);
 
 }  // namespace spindrift

@@ -65,10 +65,11 @@ struct ReleaseSection {
   double rotation = 0;  ///< angular velocity about the snow's middle, from x to z [s^-1]
 };
 
-/// Smoke in the air at the start.
+/// Smoke in the air: at the start, or given off as long as the run lasts.
 struct SmokeSection {
   std::string shape = "box";                  ///< "box" | "ball" | "polygon"
-  double density = 3;                         ///< rho_smoke [kg m^-3]
+  double density = 3;                         ///< rho_smoke at the start [kg m^-3]
+  double rate = 0;                            ///< at which more is given off [kg m^-3 s^-1]
   std::vector<double> lower, upper;           ///< corners of the box [m]
   std::vector<double> center;                 ///< of the ball [m]
   double radius = 1;                          ///< of the ball [m]

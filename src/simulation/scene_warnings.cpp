@@ -65,6 +65,9 @@ class Warner {
       add("coupling", "nothing is exchanged: it has none of drag, lift, generation and adhesion");
     if (s.coupling && s.coupling->adhesion && !s.coupling->generation && s.smoke.empty())
       add("coupling.adhesion", "there will be no smoke to adhere: neither [coupling.generation] nor [smoke]");
+    for (std::size_t i = 0; i < s.smoke.size(); ++i)
+      if (s.smoke[i].density == 0 && s.smoke[i].rate == 0)
+        add(numbered("smoke", i, s.smoke.size()), "brings no smoke: its density and its rate are 0");
     if (!s.dense_flow && !s.suspension) add("domain", "nothing to compute: neither [dense_flow] nor [suspension]");
   }
 

@@ -52,6 +52,8 @@ Simulation<Dim>::Simulation(const Scene& scene)
     suspension_->set_ground(ground_->node_distance());
   }
   if (suspension_ && !scene_.smoke.empty()) suspension_->set_smoke_mass(initial_smoke<Dim>(scene_, *suspension_));
+  if (suspension_ && std::ranges::any_of(scene_.smoke, [](const SmokeSection& s) { return s.rate > 0; }))
+    smoke_source_.emplace(smoke_rate<Dim>(scene_, *suspension_));
   if (suspension_ && dense_)
     n_interior_ = interior_number_density<Dim>(dense_->options().spacing, dense_->options().support_radius);
   n_dense_initial_ = dense_ ? dense_->particles.size() : 0;
@@ -70,6 +72,7 @@ void Simulation<Dim>::try_step(const TimeStep& step) {
   report_.n_rejected = std::exchange(back_off_.n_rejected, 0);
   predict_velocities();  // gravity: the f of Eq. (2), of the smoke by Eqs. (7)-(9)
   exchange_layers();     // 1: Secs. 4.1, 4.4.1, Eqs. (5), (6), (10)-(13)
+  inject_smoke();
   advance_dense_flow();  // 2: Secs. 3.2, 4.3, Eq. (4)
   advance_suspension();  // 3: Secs. 3.1, 4.2, Eqs. (1)-(3), the swirl of Eq. (8)
   entrain_cover();       // 4: Sec. 4.4.2, Eqs. (14)-(16)
@@ -147,6 +150,14 @@ void Simulation<Dim>::exchange_layers() {
   masses_.adhered += exchange_.adhered;
   report_.exchange_on_grid = suspension_->apply(exchange_.on_grid);
   apply_sources(p, exchange_.on_particles);
+}
+
+template <int Dim>
+void Simulation<Dim>::inject_smoke() {
+  if (!smoke_source_) return;
+  const auto timed = stages_.time("smoke_source");
+  report_.smoke_source = suspension_->apply(smoke_source_->over(dt_, *suspension_));
+  masses_.injected += smoke_source_->total_rate() * dt_;
 }
 
 template <int Dim>
@@ -263,7 +274,8 @@ double Simulation<Dim>::smoke_mass() const {
 template <int Dim>
 double Simulation<Dim>::mass_error() const {
   const double now = dense_mass() + cover_mass() + smoke_mass() + masses_.outflow() + masses_.deposited;
-  return masses_.initial > 0 ? now / masses_.initial - 1 : now;
+  const double brought = masses_.initial + masses_.injected;
+  return brought > 0 ? now / brought - 1 : now;
 }
 
 template <int Dim>
@@ -273,6 +285,7 @@ std::vector<std::pair<std::string, std::size_t>> Simulation<Dim>::memory() const
   if (dense_) parts.emplace_back("dense_flow", dense_->bytes() + columns_.bytes() + bytes(normal_impulse_));
   if (cover_) parts.emplace_back("cover", cover_->bytes());
   if (suspension_) parts.emplace_back("suspension", suspension_->bytes() + (ground_ ? ground_->bytes() : 0));
+  if (smoke_source_) parts.emplace_back("smoke_source", smoke_source_->bytes());
   if (suspension_ && dense_) parts.emplace_back("core", core_.bytes() + bytes(overlap_));
   if (coupling_)
     parts.emplace_back("coupling",

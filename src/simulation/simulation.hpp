@@ -12,6 +12,7 @@
 #include "simulation/ledger.hpp"
 #include "simulation/saved_state.hpp"
 #include "simulation/setup.hpp"
+#include "simulation/smoke_source.hpp"
 
 namespace spindrift {
 
@@ -52,10 +53,10 @@ class Simulation {
   double dense_mass() const;  ///< [kg]
   double cover_mass() const;  ///< [kg]
   double smoke_mass() const;  ///< [kg]
-  /// (dense + cover + smoke + outflow + deposit) / initial - 1.
+  /// (dense + cover + smoke + outflow + deposit) / (initial + injected) - 1.
   double mass_error() const;
   /// Bytes of state and scratch, by part, of the parts that the scene has: "terrain", "dense_flow", "cover",
-  /// "suspension", "core", "coupling", "entrainment", "saved_state".
+  /// "suspension", "smoke_source", "core", "coupling", "entrainment", "saved_state".
   std::vector<std::pair<std::string, std::size_t>> memory() const;
 
   /// All that steers the steps to come, copied into buffers that are reused, and back: the same bits follow.
@@ -76,6 +77,7 @@ class Simulation {
   TimeStep choose_time_step() const;
   void predict_velocities();
   void exchange_layers();
+  void inject_smoke();
   void advance_dense_flow();
   void advance_suspension();
   void entrain_cover();
@@ -96,6 +98,7 @@ class Simulation {
   std::optional<GroundSurface<Dim>> ground_;
 
   std::optional<Suspension<Dim>> suspension_;
+  std::optional<SmokeSource<Dim>> smoke_source_;
   std::optional<CouplingOptions> coupling_;
   std::vector<std::uint8_t> overlap_;
   OverlapRegion<Dim> region_;

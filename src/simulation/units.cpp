@@ -66,6 +66,7 @@ constexpr NamedDimension dimensions[] = {
     {"a viscosity", {-1, -1, 1, 0}},
     {"a diffusivity", {2, -1, 0, 0}},
     {"a mass flux", {-2, -1, 1, 0}},
+    {"a mass rate of a volume", {-3, -1, 1, 0}},
 };
 
 constexpr bool is_blank(char c) {

@@ -63,21 +63,24 @@ struct Part {
 
 const std::vector<Part> parts{
     {{"suspension", "suspension.confinement", "coupling.drag", "coupling.lift", "coupling.generation",
-      "coupling.adhesion"},
-     {"suspension", "overlap", "exchange"},
-     {"suspension", "core", "coupling"}},
+      "coupling.adhesion", "smoke"},
+     {"suspension", "overlap", "exchange", "smoke_source"},
+     {"suspension", "core", "coupling", "smoke_source"}},
     {{"coupling.drag", "coupling.lift", "coupling.generation", "coupling.adhesion"}, {"exchange"}, {"coupling"}},
     {{"suspension.confinement"}, {"suspension.confinement"}, {}},
     {{"entrainment"}, {"entrainment"}, {"entrainment"}},
     {{"cover", "entrainment"}, {"entrainment"}, {"cover", "entrainment"}},
+    {{"smoke"}, {"smoke_source"}, {"smoke_source"}},
 };
 
 }  // namespace
 
 TEST_CASE("Absent parts take no pass and no byte", "[absence]") {
-  const Simulation<2> whole = some_steps(std::string(small_avalanche));
+  const std::string with_source =
+      std::string(small_avalanche) + "[smoke]\ndensity = 0\nrate = 5\nlower = [2, 9]\nupper = [6, 12]\n";
+  const Simulation<2> whole = some_steps(with_source);
   for (const Part& part : parts) {
-    const Simulation<2> simulation = some_steps(without(small_avalanche, part.sections));
+    const Simulation<2> simulation = some_steps(without(with_source, part.sections));
     for (const std::string& stage : part.stages) {
       CAPTURE(stage);
       CHECK(whole.stages().passes(stage) > 0);

@@ -70,6 +70,8 @@ TEST_CASE("scenes that hardly mean what they say get a warning with its place an
        "a.toml:7:13: warning: suspension.viscosity: has no effect on air that is frozen: suspension.frozen is true"},
       {head + "[suspension]\nfrozen = true\n[suspension.confinement]\n",
        "a.toml:7:13: warning: suspension.confinement: has no effect on air that is frozen: suspension.frozen is true"},
+      {head + "[suspension]\n[smoke]\nlower = [1, 1]\nupper = [2, 2]\ndensity = 0\n",
+       "a.toml:6:2: warning: smoke: brings no smoke: its density and its rate are 0"},
       {head + "gravity = [0, 9.81]\n[suspension]\n", "a.toml:5:11: warning: domain.gravity: points upwards"},
       {head + "[suspension]\nscheme = \"reflection\"\ncfl = 20\n",
        "a.toml:7:7: warning: suspension.cfl: the reflection scheme can gain energy in steps of more than ten cells"},

@@ -53,11 +53,11 @@ std::string all_of(const Simulation<Dim>& s) {
   const StepReport<Dim>& r = s.report();
   const MassLedger& m = s.masses();
   Digest digest;
-  for (const double x : {s.time(), r.dt, m.generated, m.adhered, m.entrained, m.outflow(), s.cover_mass(),
+  for (const double x : {s.time(), r.dt, m.generated, m.adhered, m.entrained, m.injected, m.outflow(), s.cover_mass(),
                          s.smoke_mass(), r.suspension.pressure.residual, r.dense.density.error})
     digest.add(x);
-  for (const Vec<Dim>& v : {r.exchange_on_grid, r.bed_friction, r.core_reaction, r.ground_on_air, r.suspension.core,
-                            r.suspension.advection, r.suspension.smoke, r.suspension.projection})
+  for (const Vec<Dim>& v : {r.exchange_on_grid, r.bed_friction, r.core_reaction, r.ground_on_air, r.smoke_source,
+                            r.suspension.core, r.suspension.advection, r.suspension.smoke, r.suspension.projection})
     digest.add(v.sum());
   digest.add(static_cast<std::uint64_t>(r.n_rejected)).add(static_cast<std::uint64_t>(r.n_core_cells));
   for (const std::uint8_t overlap : s.overlap()) digest.add(overlap);
