@@ -38,7 +38,7 @@ struct DenseAlone {
     walls.domain = {{0, 0}, {40, 24}};
     walls.sides = {{{Side::open, Side::open}, {Side::closed, Side::open}}};
     walls.terrain.emplace(std::vector<Vec<2>>{{0, 20}, {24, 2}, {100, 1}});
-    SnowKind<2> released{dense.options().spacing(), dense.options().density, {4, -3}};
+    SnowKind<2> released{dense.options().spacing, dense.options().density, {4, -3}};
     dense.particles = sample_slab<2>(*walls.terrain, {1, 5, with_cover ? cover_depth : 0, 1.5, {}}, released);
     if (!with_cover) return;
     const auto ground_at = [&](double x) { return walls.terrain->foot({x, walls.terrain->height(x)}).place[0]; };
@@ -47,7 +47,7 @@ struct DenseAlone {
     layer.from = std::max(0.0, layer.ground_from), layer.to = layer.ground_to;
     layer.depth = cover_depth;
     cover = sample_cover<2>(*walls.terrain, layer,
-                            {dense.options().spacing(), 100, Vec<2>::Zero(), dense.particles.size()});
+                            {dense.options().spacing, 100, Vec<2>::Zero(), dense.particles.size()});
   }
 
   void step() {
@@ -63,7 +63,7 @@ struct DenseAlone {
     solved = dense.solve_velocity(dt, stages);
     {
       const auto columns_timed = stages.time("dense_flow.columns");
-      build_columns<2>(columns, *walls.terrain, p, cover ? &*cover : nullptr, dense.options().spacing(),
+      build_columns<2>(columns, *walls.terrain, p, cover ? &*cover : nullptr, dense.options().spacing,
                        dense.options().support_radius);
     }
     {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "simulation/scene_reader.hpp"
@@ -32,6 +34,14 @@ void measure(Point& point, const Scene& scene, const Compare<Dim>& compare, cons
   std::nth_element(seconds.begin(), middle, seconds.end());
   point.cost.seconds = *middle;
   point.cost.repeats = static_cast<int>(seconds.size());
+}
+
+/// Whether a series varies how the case is computed, and not the case.
+bool is_numerical(const std::string& factor) {
+  constexpr std::array<std::string_view, 9> numerical{"resolution", "scheme",         "solver",
+                                                      "tolerance",  "time step",      "kernel",
+                                                      "spacing",    "support radius", "neighbour search"};
+  return std::ranges::find(numerical, factor) != numerical.end();
 }
 
 bool is_error(double value) {
@@ -70,7 +80,8 @@ bool CaseResult::passed() const {
 const Point* CaseResult::cheapest(double l2) const {
   const Point* best = nullptr;
   for (const Point& point : points)
-    if (point.failure.empty() && point.outcome.l2 <= l2 && (!best || point.cost.seconds < best->cost.seconds))
+    if (is_numerical(point.factor) && point.failure.empty() && point.outcome.l2 <= l2 &&
+        (!best || point.cost.seconds < best->cost.seconds))
       best = &point;
   return best;
 }

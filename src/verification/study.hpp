@@ -41,7 +41,8 @@ struct CaseResult {
   double order(const Series& series) const;
   /// The default series is inside its gates and its order.
   bool passed() const;
-  /// Fewest seconds of all points with at most that error; null: none reaches it.
+  /// Fewest seconds of all points with at most that error, of the series that compute the same case otherwise; null:
+  /// none reaches it.
   const Point* cheapest(double l2) const;
 };
 

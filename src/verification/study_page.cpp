@@ -27,7 +27,8 @@ std::string error_text(double error) {
 }
 
 std::string seconds_text(double seconds) {
-  return fmt::format("{:.{}f} s", seconds, seconds < 0.1 ? 4 : seconds < 10 ? 2 : 0);
+  if (seconds < 0.1) return fmt::format("{:.2g} ms", 1000 * seconds);
+  return fmt::format("{:.{}f} s", seconds, seconds < 10 ? 2 : 0);
 }
 
 std::string verdict(const CaseResult& result) {
