@@ -70,9 +70,10 @@ ExitCode verify_cases(const VerifyArguments& arguments) {
   std::size_t n_outside = 0;
   for (const Case& one : cases) {
     results.push_back(run_case(one, options));
-    if (results.back().passed()) continue;
-    ++n_outside;
-    say(fmt::format("{}: outside its gates", one.name));
+    write_points(arguments.folder, results);
+    const bool passed = results.back().passed();
+    if (!passed) ++n_outside;
+    say(fmt::format("{}/{} {}: {} its gates", results.size(), cases.size(), one.name, passed ? "inside" : "outside"));
   }
   write_study(arguments.folder, results, say);
   say(fmt::format("{} cases, {} outside their gates", results.size(), n_outside));
@@ -89,7 +90,12 @@ ExitCode refine_scene(const VerifyArguments& arguments) {
   const Scene scene = read_and_judge({arguments.what.front(), arguments.settings}, folder, plan, say);
   double seconds = 0;
   const std::vector<RefinedRun> runs = planned_runs(scene, arguments.quick);
-  for (const RefinedRun& run : runs) seconds += plan_scene(scaled(scene, run.factor, run.scale)).seconds;
+  for (const RefinedRun& run : runs) {
+    const Scene finer = scaled(scene, run.factor, run.scale);
+    const Plan its_plan = plan_scene(finer);
+    require_fit(finer, its_plan, folder);
+    seconds += its_plan.seconds;
+  }
   say(fmt::format("{} runs, about {}, up to three times more or less", runs.size(), duration_text(seconds)));
   make_folder(folder);
   const Refinement refinement = refine(scene, arguments.quick, [](const RefinedRun& run) {
@@ -127,6 +133,8 @@ ExitCode verify_stability(const VerifyArguments& arguments) {
 ExitCode verify(const VerifyArguments& arguments) {
   if (arguments.list) return list_cases();
   const ThreadLimit threads(arguments.threads);
+  if (arguments.stability && !(arguments.what.empty() && arguments.settings.empty()))
+    throw Error(ExitCode::bad_input, "--stability has scenes and settings of its own, and takes none");
   if (arguments.stability) return verify_stability(arguments);
   const bool scene = std::ranges::any_of(arguments.what, [](const std::string& w) { return w.ends_with(".toml"); });
   if (scene) return refine_scene(arguments);

@@ -73,7 +73,7 @@ def work_precision(axes, curves):
 def draw_cases(folder):
     for (name,), rows in groups(rows_of(folder / "points.csv"), "case"):
         rows = list(rows)
-        curves = [(f"{factor}: {series}" if factor != "resolution" else f"{series} (default)", list(points))
+        curves = [(f"{factor}: {series}", list(points))
                   for (factor, series), points in groups(rows, "factor", "series")]
         figure, axes = plt.subplots(figsize=(7.2, 4.6))
         work_precision(axes, curves)

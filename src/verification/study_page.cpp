@@ -155,10 +155,14 @@ std::string points_csv(const std::vector<CaseResult>& results) {
   return text;
 }
 
-void write_study(const fs::path& folder, const std::vector<CaseResult>& results,
-                 const std::function<void(const std::string&)>& note) {
+void write_points(const fs::path& folder, const std::vector<CaseResult>& results) {
   make_folder(folder / "verification");
   commit(folder / "verification/points.csv", points_csv(results));
+}
+
+void write_study(const fs::path& folder, const std::vector<CaseResult>& results,
+                 const std::function<void(const std::string&)>& note) {
+  write_points(folder, results);
   if (const auto why = plot("cases", folder / "verification")) note(*why);
   const Page page = study_page(results);
   commit(folder / "verification.md", page.markdown());

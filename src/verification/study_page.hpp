@@ -13,6 +13,9 @@ namespace spindrift {
 /// Of every point, with a head line: points.csv.
 std::string points_csv(const std::vector<CaseResult>& results);
 
+/// Writes folder/verification/points.csv, whole or not at all.   Throws Error(io_failed).
+void write_points(const std::filesystem::path& folder, const std::vector<CaseResult>& results);
+
 /// Writes folder/verification.md, .html and folder/verification/{points.csv, CASE.png}, each whole or not at all.
 /// note: is told why there are no pictures, if so.   Throws Error(io_failed).
 void write_study(const std::filesystem::path& folder, const std::vector<CaseResult>& results,
