@@ -78,8 +78,8 @@ void guard_folder(const std::filesystem::path& folder, const RunArguments& argum
     talk.warn(fmt::format("{}: replacing {}", folder.string(), text));
   } catch (const nlohmann::json::exception&) {
     refuse("holds a run.json that is not ours");
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::incompatible_file) throw;
+  } catch (const Error& failure) {
+    if (failure.code() != ExitCode::incompatible_file) throw;
     refuse("holds a run.json that cannot be read");
   }
 }

@@ -18,7 +18,7 @@ std::string joined(const Page::Row& cells, std::string_view before, std::string_
 /// A bar would end the cell.
 Page::Row without_bars(Page::Row cells) {
   for (std::string& cell : cells)
-    for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.insert(at, "\\");
+    for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.insert(at, 1, '\\');
   return cells;
 }
 

@@ -5,16 +5,11 @@
 #include "io/commit.hpp"
 #include "verification/page.hpp"
 #include "verification/plot.hpp"
+#include "verification/quoted.hpp"
 #include "verification/stability.hpp"
 
 namespace spindrift {
 namespace {
-
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, "\"");
-  std::ranges::replace(text, '\n', ' ');
-  return fmt::format("\"{}\"", text);
-}
 
 std::string csv_of(const std::vector<TrialResult>& results) {
   const auto point = std::ranges::find_if(results, [](const TrialResult& r) { return !r.trial.parameters.empty(); });
@@ -22,13 +17,13 @@ std::string csv_of(const std::vector<TrialResult>& results) {
       "set,name,verdict,good,beyond,steps,rejected,slowest_step_s,shortest_dt_s,mass_error,energy_growth,fastest_m_s,"
       "pressure_iterations,reason";
   if (point != results.end())
-    for (const auto& [name, value] : point->trial.parameters) text += "," + cell(name);
+    for (const auto& [name, value] : point->trial.parameters) text += "," + quoted(name);
   text += "\n";
   for (const TrialResult& r : results) {
     text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", r.trial.set, cell(r.trial.name), name_of(r.verdict),
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", r.trial.set, quoted(r.trial.name), name_of(r.verdict),
                     r.good() ? 1 : 0, r.trial.beyond ? 1 : 0, r.steps, r.rejected, r.seconds, r.shortest_step,
-                    r.mass_error, r.energy_growth, r.fastest, r.pressure_iterations, cell(r.reason));
+                    r.mass_error, r.energy_growth, r.fastest, r.pressure_iterations, quoted(r.reason));
     if (point != results.end())
       for (std::size_t k = 0; k < point->trial.parameters.size(); ++k)
         text += r.trial.parameters.empty() ? "," : fmt::format(",{}", r.trial.parameters[k].second);

@@ -8,19 +8,12 @@
 #include "io/commit.hpp"
 #include "verification/page.hpp"
 #include "verification/plot.hpp"
+#include "verification/quoted.hpp"
 
 namespace spindrift {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Between quotes, for a table of commas.
-std::string quoted(std::string text) {
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, "\"");
-  for (char& c : text)
-    if (c == '\n') c = ' ';
-  return fmt::format("\"{}\"", text);
-}
 
 std::string error_text(double error) {
   return std::isfinite(error) ? fmt::format("{:.3g}", error) : "not finite";

@@ -5,6 +5,7 @@
 
 #include "verification/cases.hpp"
 #include "verification/curve.hpp"
+#include "verification/quoted.hpp"
 #include "verification/study.hpp"
 
 using namespace spindrift;
@@ -59,6 +60,11 @@ TEST_CASE("Further series keep the settings of the one that they come from", "[s
   const Series values = over_values(base, 1, "cfl", "c", {"3", "4"});
   CHECK(values.settings == std::vector<std::string>{"x=1", "d=2"});
   CHECK(values.levels[1].settings == std::vector<std::string>{"c=4"});
+}
+
+TEST_CASE("Text in a table keeps its commas and quotes, on one line", "[study]") {
+  CHECK(quoted("") == "\"\"");
+  CHECK(quoted("a, \"b\"\nc") == "\"a, \"\"b\"\" c\"");
 }
 
 TEST_CASE("A curve goes on beyond its ends", "[study]") {
