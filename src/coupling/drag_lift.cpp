@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/drag_system.hpp"
+
 namespace spindrift {
 namespace {
 
@@ -11,7 +13,7 @@ template <int Dim>
 void find_loading(OverlapRegion<Dim>& region, const Particles<Dim>& particles) {
   std::fill(region.loading.begin(), region.loading.end(), 0.0);
   for (int axis = 0; axis < Dim; ++axis) {
-    std::vector<double>& particle_mass = region.face_scratch[0];
+    std::vector<double>& particle_mass = region.face_scratch;
     particle_mass.assign(region.face_mass[axis].size(), 0.0);
     for (std::size_t k = 0; k < region.size(); ++k)
       region.on_faces[axis][k].spread(particles.mass[region.particles[k]], particle_mass);
@@ -38,6 +40,15 @@ Curl<Dim> vorticity_at(const Suspension<Dim>& suspension, const Vec<Dim>& x) {
   } else {
     return Curl<3>(slope(2, 1) - slope(1, 2), slope(0, 2) - slope(2, 0), slope(1, 0) - slope(0, 1));
   }
+}
+
+/// The faces' velocity from the momentum given to them so far.
+template <int Dim>
+void answer_of_air(OverlapRegion<Dim>& region) {
+  for (int axis = 0; axis < Dim; ++axis)
+    for (std::size_t s = 0; s < region.faces[axis].size(); ++s)
+      region.face_velocity[axis][s] =
+          region.start_velocity[axis][s] + region.face_momentum[axis][s] / region.face_mass[axis][s];
 }
 
 }  // namespace
@@ -67,43 +78,30 @@ void exchange_drag(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
                    const ForceOptions& drag, double radius, double air_density, double dt, bool gravity_predicted) {
   find_loading(region, particles);
   const std::size_t n = region.size();
-  std::vector<double>& gamma = region.response;
-  gamma.resize(n);
+  region.coupled_mass.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t i = region.particles[k];
     region.stiffness[k] = drag_stiffness(drag, dt, radius, air_density, particles.volume[i], particles.mass[i]);
     const double beta = drag_rate(region.stiffness[k], region.loading[k], region.slip[k], gravity_predicted);
-    gamma[k] = beta / (1 + beta);
+    region.coupled_mass[k] = particles.mass[i] * beta / (1 + beta);
   }
 
   for (int axis = 0; axis < Dim; ++axis) {
-    const std::size_t n_faces = region.face_mass[axis].size();
-    std::vector<double>&weight = region.face_scratch[0], &momentum = region.face_scratch[1];
-    weight.assign(n_faces, 0.0);
-    momentum.assign(n_faces, 0.0);
-    for (std::size_t k = 0; k < n; ++k) {
-      const double c = particles.mass[region.particles[k]] * gamma[k];
-      region.on_faces[axis][k].spread(c, weight);
-      region.on_faces[axis][k].spread(c * region.velocity[k][axis], momentum);
-    }
-    std::vector<double>&u = region.face_velocity[axis], &m = region.face_mass[axis];
-    for (std::size_t s = 0; s < n_faces; ++s)
-      if (std::isfinite(m[s])) u[s] = (m[s] * u[s] + momentum[s]) / (m[s] + weight[s]);
+    const std::vector<double>& face_mass = region.face_mass[axis];
+    const bool frozen = !face_mass.empty() && std::isinf(face_mass.front());
+    if (!frozen) solve_face_velocity<Dim>(region, axis);
     for (std::size_t k = 0; k < n; ++k) {
       const Shares<Dim>& shares = region.on_faces[axis][k];
+      if (!shares.any()) continue;
       const std::uint32_t i = region.particles[k];
-      const double v = region.velocity[k][axis];
-      double given = 0;
-      for (std::size_t c = 0; c < Shares<Dim>::n; ++c) {
-        if (shares.weight[c] == 0) continue;
-        const double j = particles.mass[i] * gamma[k] * shares.weight[c] * (v - u[shares.slot[c]]);
-        region.face_momentum[axis][shares.slot[c]] += j;
-        given += j;
-      }
-      exchange.on_particles.momentum[i][axis] -= given;
-      region.velocity[k][axis] -= given / particles.mass[i];
+      const double impulse =
+          region.coupled_mass[k] * (shares.gather(region.face_velocity[axis]) - region.velocity[k][axis]);
+      exchange.on_particles.momentum[i][axis] += impulse;
+      region.velocity[k][axis] += impulse / particles.mass[i];
+      shares.spread(-impulse, region.face_momentum[axis]);
     }
   }
+  answer_of_air(region);
 }
 
 template <int Dim>
@@ -130,11 +128,7 @@ void exchange_lift(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
       shares.spread(-impulse[axis], region.face_momentum[axis]);
     }
   }
-  // The air answers once all particles have pushed: no particle's lift depends on another's place in the list.
-  for (int axis = 0; axis < Dim; ++axis)
-    for (std::size_t s = 0; s < region.faces[axis].size(); ++s)
-      region.face_velocity[axis][s] =
-          region.start_velocity[axis][s] + region.face_momentum[axis][s] / region.face_mass[axis][s];
+  answer_of_air(region);  // once all particles have pushed: none's lift depends on another's place in the list
 }
 
 #define INSTANTIATE(Dim)                                                                                               \

@@ -31,10 +31,9 @@ double drag_rate(double stiffness, double loading, double slip, bool gravity_pre
 template <int Dim>
 Vec<Dim> damped_rotation(const Vec<Dim>& w, const Curl<Dim>& theta);
 
-/// Drag, Eq. (10):  f_i = -k_drag (m_i / r_i) |v_i - u_i| (v_i - u_i), by the two-way implicit exchange
-///   u_f' = (m_f u_f + sum_p c_pf gamma_p v_p) / (m_f + sum_p c_pf gamma_p)
-///   v_p' = v_p - gamma_p sum_f w_pf (v_p - u_f')
-/// c_pf = w_pf m_p, w_pf the weights of region.on_faces, gamma = beta / (1 + beta).
+/// Drag, Eq. (10):  f_i = -k_drag (m_i / r_i) |v_i - u_i| (v_i - u_i), u_i = sum_f w_if u_f, two-way and implicit:
+///   v_p' = v_p - J_p / m_p,   u_f' = u_f + sum_p w_pf J_p / m_f,   J_p = m_p gamma_p (v_p - u_p'),
+/// w_pf the weights of region.on_faces, gamma = beta / (1 + beta); u' by solve_face_velocity().
 /// Changes the velocities in `region`, fills its stiffness and loading, and books both sides in `exchange`.
 template <int Dim>
 void exchange_drag(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Particles<Dim>& particles,

@@ -75,9 +75,10 @@ void find_region(OverlapRegion<Dim>& region, const Particles<Dim>& particles, st
 
 template <int Dim>
 std::size_t OverlapRegion<Dim>::bytes() const {
-  std::size_t sum = spindrift::bytes(particles) + spindrift::bytes(on_cells) + cells.bytes() +
-                    spindrift::bytes(velocity) +
-                    spindrift::bytes(slip, stiffness, loading, response, swept, face_scratch[0], face_scratch[1]);
+  std::size_t sum =
+      spindrift::bytes(particles) + spindrift::bytes(on_cells) + cells.bytes() + spindrift::bytes(velocity) +
+      spindrift::bytes(slip, stiffness, loading, coupled_mass, swept, face_scratch) +
+      spindrift::bytes(drag_system.lumped, drag_system.residual, drag_system.direction, drag_system.image);
   for (int axis = 0; axis < Dim; ++axis)
     sum += spindrift::bytes(on_faces[axis]) + faces[axis].bytes() +
            spindrift::bytes(face_mass[axis], face_velocity[axis], start_velocity[axis], face_momentum[axis]);

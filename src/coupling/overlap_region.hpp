@@ -79,6 +79,11 @@ struct SmokeScratch {
   }
 };
 
+/// What solve_face_velocity() works with, one entry a face.
+struct DragSystem {
+  std::vector<double> lumped, residual, direction, image;
+};
+
 /// Working state of one step's exchange. k counts the region's particles, not the dense flow's.
 template <int Dim>
 struct OverlapRegion {
@@ -93,14 +98,15 @@ struct OverlapRegion {
   std::array<std::vector<double>, Dim> face_velocity;   ///< u_f, changed by drag and lift [m s^-1]
   std::array<std::vector<double>, Dim> face_momentum;   ///< given to the face so far [kg m s^-1]
 
-  std::vector<Vec<Dim>> velocity;   ///< v of the particle, changed by drag and lift [m s^-1]
-  std::vector<double> slip;         ///< |w| before drag [m s^-1]
-  std::vector<double> stiffness;    ///< a of drag_stiffness(); 0 without drag [s m^-1]
-  std::vector<double> loading;      ///< phi, particle over air mass around the particle
-  std::vector<double> response;     ///< gamma of drag, scratch
-  std::vector<double> swept;        ///< S_sec |w| where smoke sticks [m^Dim s^-1], scratch
-  std::vector<std::uint8_t> spent;  ///< scratch
-  std::array<std::vector<double>, 2> face_scratch;
+  std::vector<Vec<Dim>> velocity;    ///< v of the particle, changed by drag and lift [m s^-1]
+  std::vector<double> slip;          ///< |w| before drag [m s^-1]
+  std::vector<double> stiffness;     ///< a of drag_stiffness(); 0 without drag [s m^-1]
+  std::vector<double> loading;       ///< phi, particle over air mass around the particle
+  std::vector<double> coupled_mass;  ///< m gamma of drag [kg]
+  std::vector<double> swept;         ///< S_sec |w| where smoke sticks [m^Dim s^-1], scratch
+  std::vector<std::uint8_t> spent;   ///< scratch
+  std::vector<double> face_scratch;
+  DragSystem drag_system;
   SmokeScratch<Dim> smoke;
 
   std::size_t size() const { return particles.size(); }

@@ -1,8 +1,10 @@
 #pragma once
 /// A verification case: a scene file, what is varied in it, and what its result is compared with.
 
+#include <algorithm>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -73,10 +75,13 @@ struct Case {
   std::string scene;      ///< file under configs/
   /// The first is the default: its levels refine, and carry the gates.
   std::vector<Series> series;
-  double least_order = 0;  ///< observed order of the default series that is right; 0: none is asked for
-  bool quick = false;      ///< one of those of the quick form
-  std::string remark;      ///< what the numbers mean, where the reference does not hold, what is left out; may be empty
+  double least_order = 0;   ///< observed order of the default series that is right; 0: none is asked for
+  std::size_t n_gated = 1;  ///< the first so many series must have that order, and be inside what gates they have
+  bool quick = false;       ///< one of those of the quick form
+  std::string remark;  ///< what the numbers mean, where the reference does not hold, what is left out; may be empty
   std::variant<Compare<2>, Compare<3>> compare;
+
+  std::span<const Series> gated() const { return {series.data(), std::min(n_gated, series.size())}; }
 };
 
 /// The default series with more settings: one more curve over the same levels. Its levels have no gates.

@@ -72,9 +72,10 @@ double CaseResult::order(const Series& series) const {
 }
 
 bool CaseResult::passed() const {
-  const auto by_default = of(what.series.front());
-  if (!std::ranges::all_of(by_default, [](const Point* point) { return point->inside(); })) return false;
-  return what.least_order == 0 || order(what.series.front()) >= what.least_order;
+  return std::ranges::all_of(what.gated(), [&](const Series& series) {
+    return std::ranges::all_of(of(series), [](const Point* point) { return point->inside(); }) &&
+           (what.least_order == 0 || order(series) >= what.least_order);
+  });
 }
 
 const Point* CaseResult::cheapest(double l2) const {
@@ -121,9 +122,9 @@ Scene scene_of(const Case& what, const Series& series, const Level& level) {
 CaseResult run_case(const Case& what, const StudyOptions& options) {
   CaseResult result{what, {}};
   if (options.quick) {
-    result.what.series.resize(1);
-    auto& levels = result.what.series.front().levels;
-    if (levels.size() > 2) levels.resize(2);
+    result.what.series.resize(what.gated().size());
+    for (Series& series : result.what.series)
+      if (series.levels.size() > 2) series.levels.resize(2);
   }
   for (const Series& series : result.what.series)
     for (const Level& level : series.levels) {

@@ -47,7 +47,7 @@ struct CaseResult {
 };
 
 struct StudyOptions {
-  bool quick = false;    ///< two levels of the default series, one repeat
+  bool quick = false;    ///< two levels of the gated series, one repeat
   int repeats = 3;       ///< of runs shorter than `long_run`; longer ones are run once
   double long_run = 10;  ///< [s]
   std::function<void(const Case&, const Point&)> on_point;  ///< after every run; may be empty

@@ -33,10 +33,12 @@ const Point& finest(const CaseResult& result) {
 }
 
 std::string order_text(const CaseResult& result) {
-  const double order = result.order(result.what.series.front());
-  if (!std::isfinite(order)) return "-";
-  return result.what.least_order > 0 ? fmt::format("{:.2f} (at least {:g})", order, result.what.least_order)
-                                     : fmt::format("{:.2f}", order);
+  std::vector<std::string> orders;
+  for (const Series& series : result.what.gated())
+    if (const double order = result.order(series); std::isfinite(order)) orders.push_back(fmt::format("{:.2f}", order));
+  if (orders.empty()) return "-";
+  const std::string all = fmt::format("{}", fmt::join(orders, ", "));
+  return result.what.least_order > 0 ? fmt::format("{} (at least {:g})", all, result.what.least_order) : all;
 }
 
 std::string cheapest_text(const CaseResult& result, double error) {

@@ -43,6 +43,14 @@ TEST_CASE("A result knows its order, its verdict and its cheapest run", "[study]
   CHECK(!result.passed());
   result.what.least_order = 1.9;
   CHECK(result.passed());
+  result.what.series.push_back({"stiffness", "b", {}, {{"1", {}, 1}, {"2", {}, 0.5}}});
+  for (const double size : {1.0, 0.5})
+    result.points.push_back({"stiffness", "b", "", size, 0.2, {0.1 * size, 0.1 * size, {}}, {}, {}});
+  CHECK(result.passed());
+  result.what.n_gated = 2;
+  CHECK(!result.passed());  // of first order
+  result.what.least_order = 0.9;
+  CHECK(result.passed());
   result.points[1].outcome.checks.push_back({"a check", 2, 1});
   CHECK(!result.passed());
   result.points[1].outcome.checks.clear();
