@@ -86,7 +86,7 @@ struct DenseFlowSection {
   std::string wall = "slip";            ///< "slip" | "no_slip": of the viscous stress at walls
   double density_tolerance = 5e-4;      ///< mean compression allowed
   double divergence_tolerance = 1e-1;   ///< mean rate of compression allowed, in percent of the volume a step
-  double relative_tolerance = 0;        ///< compression left over what the velocities alone would make; 0: off
+  double relative_tolerance = 0.1;      ///< compression left over what the velocities alone would make; 0: off
   int max_iterations = 100;
   double cfl = 0.4;                            ///< of the spacing
   double sound_speed = 0;                      ///< [m s^-1] (wcsph); 0: ten times the largest speed expected
