@@ -13,7 +13,7 @@ struct PressureOptions {
   double density_tolerance = 5e-4;    ///< mean compression left, as a fraction of the volume
   double divergence_tolerance = 0.1;  ///< mean rate of compression left, in percent of the volume a step
   /// mean compression left, as a share of what the velocities alone would compress; 0: not asked for
-  double relative_tolerance = 0;
+  double relative_tolerance = 0.1;
   int max_iterations = 100;
 };
 

@@ -102,15 +102,15 @@ TEST_CASE("a short column rests with the equation of state", "[column]") {
 }
 
 TEST_CASE("a column comes to rest", "[column][slow]") {
-  SECTION("with the default tolerances as far as these go: about 2.5e-4 of compression a step over its depth") {
+  SECTION("by density_tolerance alone as far as it goes: about 2.5e-4 of compression a step over its depth") {
     const int rows = GENERATE(20, 50);
-    check(column(rows, 20, {}), rows, 300, 1e-3, 0.02);
-  }
-  SECTION("with a relative tolerance at any resolution: what is left goes with dt^2 g / H") {
-    const int rows = GENERATE(20, 50, 100);
     DenseFlowOptions options;
-    options.pressure.relative_tolerance = 0.1;
+    options.pressure.relative_tolerance = 0;
     check(column(rows, 20, options), rows, 300, 1e-3, 0.02);
+  }
+  SECTION("with the default tolerances at any resolution: what is left goes with dt^2 g / H") {
+    const int rows = GENERATE(20, 50, 100);
+    check(column(rows, 20, {}), rows, 300, 1e-3, 0.02);
   }
   SECTION("with a tight solve within the catalogue's gates, at any resolution and for long (A2)") {
     const int rows = GENERATE(20, 50, 100);
