@@ -4,47 +4,18 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <deque>
-#include <new>
 
 #include "absence/air_alone.hpp"
 #include "absence/dense_alone.hpp"
 #include "absence/scenes.hpp"
+#include "count_allocations.hpp"
 #include "simulation/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 
 using namespace spindrift;
-
-namespace {
-std::atomic<std::uint64_t> n_allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  ++n_allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++n_allocations;
-  const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::align_val_t) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
 
 namespace {
 
