@@ -11,6 +11,7 @@
 #include "absence/air_alone.hpp"
 #include "absence/dense_alone.hpp"
 #include "absence/scenes.hpp"
+#include "core/median.hpp"
 #include "count_allocations.hpp"
 #include "simulation/scene_reader.hpp"
 #include "simulation/simulation.hpp"
@@ -18,12 +19,6 @@
 using namespace spindrift;
 
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Simulation<2> avalanche(std::size_t n_parts) {
   return Simulation<2>(parse_scene(absence::avalanche(n_parts), "avalanche.toml"));
