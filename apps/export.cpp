@@ -160,9 +160,8 @@ void add_export(CLI::App& app, Command& chosen) {
       ->type_name("DENSITY");
   command->footer(
       "Example:  spindrift export runs/quickstart --to csv --every 10\n"
-      "The frames themselves are VTKHDF: ParaView from 5.10 on opens particles.hdf.series and smoke.hdf.series as "
-      "they\n"
-      "are. docs/results.md tells more.");
+      "The frames themselves are VTKHDF: ParaView from 5.10 on opens particles.hdf.series and smoke.hdf.series as they"
+      "\nare. docs/results.md tells more.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return export_run(*arguments); }; });
 }
 

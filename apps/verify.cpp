@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "commands.hpp"
 #include "core/parallel.hpp"
@@ -89,7 +90,7 @@ ExitCode refine_scene(const VerifyArguments& arguments) {
   Plan plan;
   const Scene scene = read_and_judge({arguments.what.front(), arguments.settings}, folder, plan, say);
   double seconds = 0;
-  const std::vector<RefinedRun> runs = planned_runs(scene, arguments.quick);
+  std::vector<RefinedRun> runs = planned_runs(scene, arguments.quick);
   for (const RefinedRun& run : runs) {
     const Scene finer = scaled(scene, run.factor, run.scale);
     const Plan its_plan = plan_scene(finer);
@@ -98,7 +99,7 @@ ExitCode refine_scene(const VerifyArguments& arguments) {
   }
   say(fmt::format("{} runs, about {}, up to three times more or less", runs.size(), duration_text(seconds)));
   make_folder(folder);
-  const Refinement refinement = refine(scene, arguments.quick, [](const RefinedRun& run) {
+  const Refinement refinement = refine(scene, std::move(runs), [](const RefinedRun& run) {
     if (!run.failure.empty())
       return say(fmt::format("{:<12} x {:<6.3g} failed: {}", run.factor, run.scale, run.failure));
     std::string line = fmt::format("{:<12} x {:<6.3g} {:>8.2f} s", run.factor, run.scale, run.cost.seconds);

@@ -46,8 +46,8 @@ struct DenseAlone {
     layer.ground_from = ground_at(0), layer.ground_to = ground_at(40);
     layer.from = std::max(0.0, layer.ground_from), layer.to = layer.ground_to;
     layer.depth = cover_depth;
-    cover = sample_cover<2>(*walls.terrain, layer,
-                            {dense.options().spacing, 100, Vec<2>::Zero(), dense.particles.size()});
+    cover =
+        sample_cover<2>(*walls.terrain, layer, {dense.options().spacing, 100, Vec<2>::Zero(), dense.particles.size()});
   }
 
   void step() {

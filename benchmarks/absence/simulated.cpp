@@ -4,55 +4,21 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <deque>
-#include <new>
 
 #include "absence/air_alone.hpp"
 #include "absence/dense_alone.hpp"
 #include "absence/scenes.hpp"
+#include "core/median.hpp"
+#include "count_allocations.hpp"
 #include "simulation/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 
 using namespace spindrift;
 
 namespace {
-std::atomic<std::uint64_t> n_allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  ++n_allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++n_allocations;
-  const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::align_val_t) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
-
-namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Simulation<2> avalanche(std::size_t n_parts) {
   return Simulation<2>(parse_scene(absence::avalanche(n_parts), "avalanche.toml"));

@@ -12,7 +12,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "simulation/simulation.hpp"
 
 namespace spindrift {
 namespace {

@@ -115,9 +115,8 @@ std::string scene_reference() {
     }
   }
   text +=
-      "\nIn brackets: the equation or section of the paper, or the entry of [departures.md](departures.md), that the "
-      "key "
-      "belongs to.\n";
+      "\nIn brackets: the equation or section of the paper, or the entry of [departures.md](departures.md), that "
+      "the key belongs to.\n";
   return text;
 }
 

@@ -119,11 +119,9 @@ Case cavity() {
   what.quick = true;
   what.remark =
       "After 20 s the air is steady to a hundredth of its error. The splitting of the step costs an error of first "
-      "order "
-      "in time, so the steps shrink with the cells; at a fixed step the order is lower. It still lies below 2: "
-      "probably "
-      "by the lid's ends, which are singular, and by MacCormack's clamp at extrema. The table of Ghia, Ghia and Shin "
-      "(1982), more often used, differs from this one by 1.5 to 3 % at the extrema.";
+      "order in time, so the steps shrink with the cells; at a fixed step the order is lower. It still lies below 2: "
+      "probably by the lid's ends, which are singular, and by MacCormack's clamp at extrema. The table of Ghia, Ghia "
+      "and Shin (1982), more often used, differs from this one by 1.5 to 3 % at the extrema.";
   what.compare = Compare<2>(compare_marchi);
   return what;
 }

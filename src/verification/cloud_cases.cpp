@@ -58,8 +58,7 @@ Case heavy_ball(std::string name, const Series& refined, const std::string& radi
   what.remark = fmt::format(
       "The walls, {} radii away, hold up the air that flows back: {} % of the acceleration are missing for that. What "
       "is left is the rim, a cell thick, where a face takes the mean density of smoke and air; of first order, and "
-      "gone "
-      "for light smoke.",
+      "gone for light smoke.",
       radii, Dim == 2 ? "0.3" : "0.5");
   what.quick = Dim == 3;
   what.compare = Compare<Dim>(compare_added_mass<Dim>);

@@ -104,11 +104,10 @@ Case thermal() {
       "Outside its gates, and for a reason. The depth goes with exponents of 0.58 to 0.67 without converging; half the "
       "distance of the vortices with 0.89, 0.92 and 0.93, towards 1 and not 2/3. The law is that of a turbulent cloud, "
       "whose circulation grows as t^(1/3). In a plane without friction, mirror-symmetric, nothing passes circulation "
-      "on "
-      "across the middle or makes more of it once the smoke sits in the vortices: it stays nearly the same (t^0.08), "
-      "and as the impulse grows with weight times time, the two vortices go apart as t: the buoyant vortex pair of "
-      "Turner (1960). That impulse is held to 1 % on the finer grids, as are the mass and, as far as the pressure is "
-      "solved, the mirror symmetry. A run in three dimensions that breaks the symmetry is left to do.";
+      "on across the middle or makes more of it once the smoke sits in the vortices: it stays nearly the same "
+      "(t^0.08), and as the impulse grows with weight times time, the two vortices go apart as t: the buoyant vortex "
+      "pair of Turner (1960). That impulse is held to 1 % on the finer grids, as are the mass and, as far as the "
+      "pressure is solved, the mirror symmetry. A run in three dimensions that breaks the symmetry is left to do.";
   what.compare = Compare<2>(compare_thermal);
   return what;
 }
@@ -195,12 +194,12 @@ Case plume() {
                    2));
   what.remark =
       "Outside its gates of 0.05: w goes with exponents of 0.02, -0.11 and -0.11 from the coarsest cells to the "
-      "finest, "
-      "b with 0.80, 0.94 and 1.06. What is chaotic is averaged over 180 s only: runs that differ by their tolerance "
-      "alone lie 0.1 apart, so no order is to be seen. In a plane the eddies join and the plume swings the more the "
-      "deeper it is, which widens the mean and slows it. b / z is 0.11 to 0.12 on the finest cells, w 1.5 times the "
-      "cube root of the buoyancy's flux; that flux is the source's, within 4 % at every height. Semi-Lagrangian "
-      "advection damps the swinging away: on coarse cells it leaves a sheet that falls faster and faster.";
+      "finest, b with 0.80, 0.94 and 1.06. What is chaotic is averaged over 180 s only: runs that differ by their "
+      "tolerance alone lie 0.1 apart, so no order is to be seen. In a plane the eddies join and the plume swings the "
+      "more the deeper it is, which widens the mean and slows it. b / z is 0.11 to 0.12 on the finest cells, w 1.5 "
+      "times the cube root of the buoyancy's flux; that flux is the source's, within 4 % at every height. "
+      "Semi-Lagrangian advection damps the swinging away: on coarse cells it leaves a sheet that falls "
+      "faster and faster.";
   what.compare = Compare<2>(compare_plume);
   return what;
 }

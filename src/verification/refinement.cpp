@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/error.hpp"
 #include "simulation/instruments.hpp"
@@ -96,8 +97,9 @@ Limit limit_of(const std::vector<double>& scales, const std::vector<double>& val
   return limit;
 }
 
-Refinement refine(const Scene& scene, bool quick, const std::function<void(const RefinedRun&)>& on_run) {
-  Refinement refinement{scene, planned_runs(scene, quick), {}};
+Refinement refine(const Scene& scene, std::vector<RefinedRun> runs,
+                  const std::function<void(const RefinedRun&)>& on_run) {
+  Refinement refinement{scene, std::move(runs), {}};
   for (RefinedRun& one : refinement.runs) {
     const Scene finer = scaled(scene, one.factor, one.scale);
     const double size = scene.dense_flow ? finer.dense_flow->support_radius / scene.dense_flow->support_radius : 1;

@@ -52,8 +52,9 @@ std::vector<RefinedRun> planned_runs(const Scene& scene, bool quick);
 /// Pre: scales with a fixed ratio, one value at least.
 Limit limit_of(const std::vector<double>& scales, const std::vector<double>& values);
 
-/// Runs them all. A run that fails becomes one with its reason.
-Refinement refine(const Scene& scene, bool quick, const std::function<void(const RefinedRun&)>& on_run);
+/// Runs them all. A run that fails becomes one with its reason.   runs: as planned_runs gives them for the scene.
+Refinement refine(const Scene& scene, std::vector<RefinedRun> runs,
+                  const std::function<void(const RefinedRun&)>& on_run);
 
 /// Writes folder/refinement.{csv,md,html,png}.   Throws Error(io_failed).
 void write_refinement(const std::filesystem::path& folder, const Refinement& refinement,

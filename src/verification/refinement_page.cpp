@@ -42,10 +42,8 @@ Page page_of(const Refinement& refinement) {
       "The scene run again with its spacing, cell size, time steps and tolerances scaled, together (*all*) and one of "
       "them alone; x 0.5 is twice as fine, tolerances go with the square. Counts are of particles as large as the "
       "scene's own. The errors are relative to Richardson's limit of *all* where its three finest runs converge "
-      "evenly, "
-      "otherwise to the finest run, whose error then shows as 0. An avalanche is chaotic: differences between runs "
-      "that "
-      "do not shrink with the scale are its spread, as between seeds, not an error of the discretisation.");
+      "evenly, otherwise to the finest run, whose error then shows as 0. An avalanche is chaotic: differences between "
+      "runs that do not shrink with the scale are its spread, as between seeds, not an error of the discretisation.");
   Page::Row head{"varied", "scale", "time"};
   std::vector<Page::Row> rows;
   for (const RefinedRun& run : refinement.runs) {

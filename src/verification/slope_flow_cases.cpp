@@ -207,8 +207,7 @@ Case viscous_film() {
   film.remark =
       "Single particles shake by some percent: the slices and the time average see the mean flow. A film that starts "
       "as a lattice runs unevenly until its rows have mixed, which is over after 0.2 s. With h = 2.5 or 3 d the film "
-      "is 3 and 14 % off at H/d = 10: walls are fitted to "
-      "their first row alone.";
+      "is 3 and 14 % off at H/d = 10: walls are fitted to their first row alone.";
   film.compare = Compare<2>(compare_film);
   return film;
 }
@@ -233,8 +232,7 @@ Case sliding_block() {
   block.quick = true;
   block.remark =
       "The way is that of symplectic Euler, too long by dt / t. Friction on the basal row alone takes the pressure "
-      "that "
-      "the row has: 0.3 % off while the block slumps, at any time step.";
+      "that the row has: 0.3 % off while the block slumps, at any time step.";
   block.compare = Compare<2>(compare_sliding_block);
   return block;
 }
@@ -304,8 +302,8 @@ Case granular_column() {
                    over_values(refined, 1, "friction", "dense_flow.friction_mu", {"0.2", "0.404", "0.8"})};
   column.remark =
       "Far outside: grains rub against each other, Spindrift's dense flow only against its bed. It runs 1.0 to 1.4 "
-      "times "
-      "too far and leaves half the height; a bed friction of 0.8 in place of 0.4 makes up for most of that at a = 1.";
+      "times too far and leaves half the height; a bed friction of 0.8 in place of 0.4 makes up for most of that "
+      "at a = 1.";
   column.compare = Compare<2>(compare_granular_column);
   return column;
 }

@@ -39,7 +39,7 @@ struct TrialResult {
   double seconds = 0;           ///< of the slowest step
   double shortest_step = 0;     ///< dt [s]
   double mass_error = 0;        ///< relative, largest
-  double energy_growth = 0;     ///< largest growth over the most there was before, relative
+  double energy_growth = 0;     ///< of the most there was over that of the start, relative
   double fastest = 0;           ///< snow or air [m s^-1]
   int pressure_iterations = 0;  ///< most of a step
   bool good() const;

@@ -97,14 +97,12 @@ Page stability_page(const std::vector<TrialResult>& results) {
   page.heading(1, "Stability");
   page.paragraph(fmt::format(
       "Written by `spindrift verify --stability` of version {}. Every trial is a small scene of "
-      "`configs/verification/` "
-      "with settings far from the usual, run twice, the second time on one thread. It passes where every state was "
-      "finite, masses and volumes were positive, the mass ledger closed to 1e-10, the mechanical energy of snow, "
-      "cover, "
-      "smoke and air never exceeded that of the start by more than 5 %, the air's pressure converged, no step took "
-      "longer than two seconds and both runs ended in the same bits. *Refused*: the scene was not accepted, with a "
-      "reason. *Stopped*: steps were rejected and halved six times, then the run ended with exit code 3 and its last "
-      "good state. All numbers: [stability.csv](stability.csv).",
+      "`configs/verification/` with settings far from the usual, run twice, the second time on one thread. It passes "
+      "where every state was finite, masses and volumes were positive, the mass ledger closed to 1e-10, the mechanical "
+      "energy of snow, cover, smoke and air never exceeded that of the start by more than 5 %, the air's pressure "
+      "converged, no step took longer than two seconds and both runs ended in the same bits. *Refused*: the scene was "
+      "not accepted, with a reason. *Stopped*: steps were rejected and halved six times, then the run ended with exit "
+      "code 3 and its last good state. All numbers: [stability.csv](stability.csv).",
       SPINDRIFT_VERSION));
   page.paragraph(
       fmt::format("Of {} trials {} went as they should; largest mass error {:.1e}, steps rejected and mended {}.",

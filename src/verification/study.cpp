@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/median.hpp"
 #include "simulation/scene_reader.hpp"
 #include "verification/cases.hpp"
 
@@ -30,9 +31,7 @@ void measure(Point& point, const Scene& scene, const Compare<Dim>& compare, cons
     point.outcome = comparison.outcome(simulation);
     seconds.push_back(point.cost.seconds);
   } while (!options.quick && seconds.front() < options.long_run && static_cast<int>(seconds.size()) < options.repeats);
-  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
-  std::nth_element(seconds.begin(), middle, seconds.end());
-  point.cost.seconds = *middle;
+  point.cost.seconds = median(seconds);
   point.cost.repeats = static_cast<int>(seconds.size());
 }
 

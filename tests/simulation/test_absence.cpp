@@ -1,45 +1,15 @@
 // What a scene does not name takes no pass, no allocation and no byte.
 
-#include <atomic>
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <new>
 
 #include "core/parallel.hpp"
+#include "count_allocations.hpp"
 #include "simulation/frame.hpp"
 #include "simulation/simulation.hpp"
 #include "small_scene.hpp"
 
 using namespace spindrift;
 using namespace spindrift::testing;
-
-namespace {
-std::atomic<std::uint64_t> n_allocations{0};
-}
-
-void* operator new(std::size_t size) {
-  ++n_allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++n_allocations;
-  const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::align_val_t) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
 
 namespace {
 

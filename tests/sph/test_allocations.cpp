@@ -1,42 +1,11 @@
-// A warm step allocates nothing: this file counts every operator new of the test executable. The address sanitizer
-// wants operator new for itself.
+// A warm step allocates nothing: every operator new of the test executable is counted. The address sanitizer wants
+// operator new for itself.
 #ifndef __SANITIZE_ADDRESS__
-#include <atomic>
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <new>
 
 #include "core/parallel.hpp"
+#include "count_allocations.hpp"
 #include "fluid_fixture.hpp"
-
-namespace {
-std::atomic<std::size_t> n_allocations{0};
-
-void* counted(std::size_t size) {
-  ++n_allocations;
-  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new[](std::size_t size) {
-  return counted(size);
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete[](void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
-void operator delete[](void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 using namespace spindrift;
 using namespace spindrift::test;
@@ -55,7 +24,7 @@ TEMPLATE_TEST_CASE_SIG("a warm step allocates nothing", "[dense_flow]", ((int Di
   const Walls<Dim> walls = box<Dim>(Vec<Dim>::Constant(n[0] * d));
   Stages stages;
   for (int k = 0; k < 60; ++k) step<Dim>(flow, 0.003, walls, -9.81 * up<Dim>(), stages);
-  const std::size_t before = n_allocations;
+  const std::uint64_t before = n_allocations;
   const std::size_t bytes = flow.bytes();
   for (int k = 0; k < 5; ++k) step<Dim>(flow, 0.003, walls, -9.81 * up<Dim>(), stages);
   CHECK(n_allocations == before);

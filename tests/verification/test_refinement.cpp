@@ -64,7 +64,7 @@ TEST_CASE("A refined dam break reads front and mass, and counts in particles of 
   const Scene dam = scene("dam_break.toml", {"dense_flow.support_radius=0.2", "scene.end_time=0.2"});
   std::set<std::string> factors;
   std::size_t n_told = 0;
-  const Refinement result = refine(dam, true, [&](const RefinedRun&) { ++n_told; });
+  const Refinement result = refine(dam, planned_runs(dam, true), [&](const RefinedRun&) { ++n_told; });
   CHECK(n_told == result.runs.size());
   for (const RefinedRun& run : result.runs) {
     CAPTURE(run.factor, run.scale, run.failure);
