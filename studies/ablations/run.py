@@ -38,7 +38,7 @@ CLOUD = 0.1             # smoke that counts as cloud [kg/m^3]
 OUTLINES = (5.0, 9.0)   # over which the outline is averaged [s]
 PICTURE_AT = 8.0        # [s]
 TILE = (700, 340)       # of a preview [pixels]
-LEFT, LOW = 330, 150    # of the tile in the preview, LOW from its bottom [pixels]
+LEFT, TOP = 150, 120    # of the tile in the preview [pixels]
 
 
 def outline(run):
@@ -70,7 +70,8 @@ def execute(program, out, name, seed):
     _, scene, _, settings = SCENES[name]
     command = [program, "run", os.path.join(ROOT, "configs", "paper", scene + ".toml"), "-o", folder, "--overwrite",
                "--seed", str(seed), "--threads", "1", "--quiet"]
-    subprocess.run(command + [word for setting in settings for word in ("--set", setting)], check=True)
+    subprocess.run(command + [word for setting in settings for word in ("--set", setting)], check=True,
+                   stdout=subprocess.DEVNULL)
     print(f"{name}, seed {seed}", file=sys.stderr)
     return folder
 
@@ -94,8 +95,7 @@ def draw(folders):
         folder = os.path.join(folders[name], "preview")
         number = int(np.argmin(np.abs(Run(folders[name]).times - PICTURE_AT)))
         preview = Image.open(os.path.join(folder, f"{number:06d}.png")).convert("RGB")
-        top = preview.height - LOW - TILE[1]
-        tile = preview.crop((LEFT, top, LEFT + TILE[0], top + TILE[1]))
+        tile = preview.crop((LEFT, TOP, LEFT + TILE[0], TOP + TILE[1]))
         pen = ImageDraw.Draw(tile)
         pen.text((TILE[0] - 10, 10), SCENES[name][0], fill="white", font=font, anchor="ra")
         sheet.paste(tile, ((k % 2) * (TILE[0] + gap), (k // 2) * (TILE[1] + gap)))
