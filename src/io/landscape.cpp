@@ -175,7 +175,7 @@ class Drawer {
   /// What a surface sends back of the sun, of the sky that it sees, and of the light that the snow around throws up.
   Rgb light_on(const Vec<3>& x, const Vec<3>& normal, Rgb albedo) const {
     const float facing = static_cast<float>(std::max(0.0, normal.dot(light_.sun)));
-    const float sun = facing > 0 ? facing * sun_map_->lit(x, normal) * smoke_.sunlight(x) : 0.0f;
+    const float sun = facing > 0 ? facing * sun_map_->lit(x, normal) * with_turned(smoke_.sunlight(x)) : 0.0f;
     const float upward = static_cast<float>(0.5 + 0.5 * normal.dot(light_.up));
     const Rgb around = upward * smoke_.skylight(x) * lights::sky + (0.12f * (1 - upward)) * lights::sun;
     return albedo * (sun * lights::sun + around);

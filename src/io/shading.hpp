@@ -27,7 +27,7 @@ inline constexpr Rgb sky{0.40f, 0.52f, 0.76f};  ///< on a surface that sees all 
 
 /// Share of the light that comes back from each.
 namespace albedos {
-inline constexpr Rgb snow{0.70f, 0.73f, 0.77f};
+inline constexpr Rgb snow{0.50f, 0.54f, 0.60f};
 inline constexpr Rgb bare{0.105f, 0.086f, 0.072f};
 inline constexpr Rgb released{0.80f, 0.88f, 0.98f};
 inline constexpr Rgb entrained{0.66f, 0.69f, 0.73f};

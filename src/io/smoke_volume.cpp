@@ -10,24 +10,15 @@
 namespace spindrift {
 namespace {
 
-constexpr int rim = 3;            // cells around the smoke: two that may lie in the ground, and one without any
-constexpr int block = 4;          // cells along the edge of a block that is skipped where it is clear
-constexpr float least = 1e-4f;    // extinction that counts as smoke [1/m]
-constexpr float opaque = 0.004f;  // of what is behind, where a ray ends
-
-/// Share of the light that is turned more than once, and how much less it is dimmed: its extinction is a quarter.
-constexpr float turned_more = 0.45f;
-
-float once_and_more(float transmittance) {
-  return (1 - turned_more) * transmittance + turned_more * std::sqrt(std::sqrt(transmittance));
-}
+constexpr int rim = 4;          // cells around the smoke: two that may lie in the ground, one to spread, one clear
+constexpr float least = 1e-4f;  // extinction that counts as smoke [1/m]
 
 /// Extinction of a cell of the lattice [1/m].
 float extinction_of(float density, float per_density) {
   return density > 0 && std::isfinite(density) ? density * per_density : 0.0f;
 }
 
-/// Directions to the sky with their weights: up, and four in between up and level.
+/// Directions to the sky with their weights: up, and four 37 degrees from it, over most slopes.
 struct SkyDirection {
   Vec<3> towards;
   float weight;
@@ -39,34 +30,12 @@ std::array<SkyDirection, 5> sky_directions(const Vec<3>& up) {
   std::array<SkyDirection, 5> all{SkyDirection{up, 0.32f}};
   for (std::size_t k = 0; k < 4; ++k) {
     const double sign = k % 2 == 0 ? 1 : -1;
-    all[k + 1] = {(0.6 * up + 0.8 * sign * (k < 2 ? aside : other)).normalized(), 0.17f};
+    all[k + 1] = {(0.8 * up + 0.6 * sign * (k < 2 ? aside : other)).normalized(), 0.17f};
   }
   return all;
 }
 
 }  // namespace
-
-/// Eight cells around a place and the place's weights between them.
-struct SmokeVolume::Corner {
-  std::size_t first = 0;
-  float a = 0, b = 0, c = 0;
-  bool inside = false;
-
-  /// s: the place in cells from the first one's centre.
-  Corner(const SmokeVolume& volume, float x, float y, float z) {
-    const Index<3>& n = volume.shape_;
-    inside = x >= 0 && y >= 0 && z >= 0 && x < static_cast<float>(n[0] - 1) && y < static_cast<float>(n[1] - 1) &&
-             z < static_cast<float>(n[2] - 1);
-    if (!inside) return;
-    const int i = static_cast<int>(x), j = static_cast<int>(y), k = static_cast<int>(z);
-    first = volume.at(i, j, k);
-    a = x - static_cast<float>(i), b = y - static_cast<float>(j), c = z - static_cast<float>(k);
-  }
-  Corner(const SmokeVolume& volume, const Vec<3>& x)
-      : Corner(volume, static_cast<float>((x[0] - volume.origin_[0]) / volume.spacing_),
-               static_cast<float>((x[1] - volume.origin_[1]) / volume.spacing_),
-               static_cast<float>((x[2] - volume.origin_[2]) / volume.spacing_)) {}
-};
 
 SmokeVolume::SmokeVolume(const SmokeLattice& lattice, double opaque_density, const Light& light, std::size_t most_cells)
     : light_(light) {
@@ -131,13 +100,18 @@ void SmokeVolume::take(const SmokeLattice& lattice, double opaque_density, std::
     unknown[c] = n_air == 0 && n_solid > 0;
   };
   parallel_for(n, fill, 4096);
+  extend_into_ground(unknown);
+  spread();
+}
+
+void SmokeVolume::extend_into_ground(std::vector<std::uint8_t>& unknown) {
   for (int layer = 0; layer < 2; ++layer) {
     const std::vector<std::uint8_t> before = unknown;
     const auto extend = [&](std::size_t c) {
       const Index<3> i = unflat<3>(c, shape_);
-      // The outermost cells stay clear.
+      // The outer cells stay clear.
       for (std::size_t k = 0; k < 3; ++k)
-        if (i[k] == 0 || i[k] == shape_[k] - 1) return;
+        if (i[k] < 2 || i[k] > shape_[k] - 3) return;
       if (!before[c]) return;
       float sum = 0;
       int n_known = 0;
@@ -151,7 +125,22 @@ void SmokeVolume::take(const SmokeLattice& lattice, double opaque_density, std::
       extinction_[c] = sum / static_cast<float>(n_known);
       unknown[c] = 0;
     };
-    parallel_for(n, extend, 4096);
+    parallel_for(extinction_.size(), extend, 4096);
+  }
+}
+
+void SmokeVolume::spread() {
+  Values before(extinction_.size());
+  std::size_t stride = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    before.swap(extinction_);
+    const auto mean = [&](std::size_t c) {
+      const int i = unflat<3>(c, shape_)[axis];
+      const float left = i > 0 ? before[c - stride] : 0, right = i + 1 < shape_[axis] ? before[c + stride] : 0;
+      extinction_[c] = 0.5f * before[c] + 0.25f * (left + right);
+    };
+    parallel_for(before.size(), mean, 8192);
+    stride *= static_cast<std::size_t>(shape_[axis]);
   }
 }
 
@@ -213,91 +202,6 @@ void SmokeVolume::mark_blocks() {
     smoky_[b] = any;
   };
   parallel_for(smoky_.size(), mark, 256);
-}
-
-float SmokeVolume::between(const Values& values, const Corner& corner) const {
-  const float* const v = values.data() + corner.first;
-  const std::size_t y = static_cast<std::size_t>(shape_[0]), z = y * static_cast<std::size_t>(shape_[1]);
-  const auto line = [&](const float* from) { return from[0] + corner.a * (from[1] - from[0]); };
-  const float low = line(v) + corner.b * (line(v + y) - line(v));
-  const float high = line(v + z) + corner.b * (line(v + z + y) - line(v + z));
-  return low + corner.c * (high - low);
-}
-
-float SmokeVolume::extinction(const Vec<3>& x) const {
-  if (empty()) return 0;
-  const Corner corner(*this, x);
-  return corner.inside ? between(extinction_, corner) : 0.0f;
-}
-
-/// Cuts [from, to] to where eye + t direction is between the cells' centres; false: nowhere.
-bool SmokeVolume::range(const Vec<3>& eye, const Vec<3>& direction, double& from, double& to) const {
-  for (int k = 0; k < 3; ++k) {
-    const double low = origin_[k], high = origin_[k] + spacing_ * (shape_[static_cast<std::size_t>(k)] - 1);
-    if (direction[k] == 0) {
-      if (eye[k] < low || eye[k] >= high) return false;
-      continue;
-    }
-    const double a = (low - eye[k]) / direction[k], b = (high - eye[k]) / direction[k];
-    from = std::max(from, std::min(a, b));
-    to = std::min(to, std::max(a, b));
-  }
-  return from < to;
-}
-
-float SmokeVolume::light_at(const Values& light, const Vec<3>& towards, const Vec<3>& x) const {
-  if (empty()) return 1;
-  const Corner here(*this, x);
-  if (here.inside) return between(light, here);
-  double from = 0, to = std::numeric_limits<double>::infinity();
-  if (!range(x, towards, from, to)) return 1;
-  // A little further in, so that it is inside for sure.
-  const Corner entry(*this, Vec<3>(x + std::min(from + 1e-3 * spacing_, 0.5 * (from + to)) * towards));
-  return entry.inside ? between(light, entry) : 1.0f;
-}
-
-float SmokeVolume::sunlight(const Vec<3>& x) const {
-  return light_at(sunlight_, light_.sun, x);
-}
-
-float SmokeVolume::skylight(const Vec<3>& x) const {
-  return light_at(skylight_, light_.up, x);
-}
-
-void SmokeVolume::pass(Seen& seen, const Vec<3>& eye, const Vec<3>& direction, double from, double to,
-                       double jitter) const {
-  if (empty() || seen.clear < opaque || !range(eye, direction, from, to)) return;
-  const double length = direction.norm();
-  const double step = 0.5 * spacing_ / length;
-  const Vec<3> start = (eye - origin_) / spacing_, pace = direction / spacing_;
-  const auto place = [&](double t, int k) { return static_cast<float>(start[k] + t * pace[k]); };
-  for (double n = std::floor(from / step); n * step < to; ++n) {
-    const double begin = std::max(n * step, from), end = std::min((n + 1) * step, to);
-    const double t = std::clamp((n + jitter) * step, begin, end);
-    const Corner corner(*this, place(t, 0), place(t, 1), place(t, 2));
-    if (!corner.inside) continue;
-    Index<3> b;
-    for (int k = 0; k < 3; ++k) b[static_cast<std::size_t>(k)] = static_cast<int>(place(t, k)) / block;
-    if (!smoky_[flat<3>(b, blocks_)]) {
-      // On to where the ray leaves the clear block.
-      double leaves = to;
-      for (int k = 0; k < 3; ++k) {
-        if (pace[k] == 0) continue;
-        const double side = block * (b[static_cast<std::size_t>(k)] + (pace[k] > 0 ? 1 : 0));
-        leaves = std::min(leaves, (side - start[k]) / pace[k]);
-      }
-      n = std::max(n, std::floor(leaves / step) - 1);
-      continue;
-    }
-    const float extinction = between(extinction_, corner);
-    if (extinction <= 0) continue;
-    const float clear = std::exp(-extinction * static_cast<float>((end - begin) * length));
-    const float turned = seen.clear * (1 - clear);
-    seen.sun += turned * once_and_more(between(sunlight_, corner));
-    seen.sky += turned * once_and_more(between(skylight_, corner));
-    seen.clear *= clear;
-    if (seen.clear < opaque) return;
-  }
 }
 
 }  // namespace spindrift

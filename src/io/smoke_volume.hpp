@@ -2,6 +2,7 @@
 /// Smoke in a picture of three dimensions: how it dims what is behind it, and how it is lit.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,13 @@ struct Light {
   Vec<3> up = Vec<3>::UnitZ();                               ///< unit, to the middle of the sky
 };
 
+/// Share of the light that comes through smoke straight or after more turns, where `straight` comes through straight:
+/// what is turned once more by smoke as bright as snow is not lost. It is dimmed by a quarter of the extinction.
+inline float with_turned(float straight) {
+  constexpr float turned = 0.45f;
+  return (1 - turned) * straight + turned * std::sqrt(std::sqrt(straight));
+}
+
 class SmokeVolume {
  public:
   /// What a ray has met so far.
@@ -37,7 +45,8 @@ class SmokeVolume {
 
   /// Takes what it needs of the lattice: the block of cells that have smoke, averaged over 2^3, 3^3, ... cells where it
   /// has over `most_cells`. The ground's cells take the mean of their neighbours in the air, so that smoke reaches the
-  /// ground; two layers of them.
+  /// ground; two layers of them. Then each cell takes half of itself and a quarter of both neighbours along each axis,
+  /// or the staircase of the cells along a slope would show: as much smoke, spread by a cell.
   /// opaque: density that hides 63 % of what is behind one metre of it [kg m^-3]; extinction = density / opaque [1/m]
   SmokeVolume(const SmokeLattice& lattice, double opaque, const Light& light, std::size_t most_cells = 6'000'000);
 
@@ -46,19 +55,20 @@ class SmokeVolume {
   /// Between the cells' centres by the eight around, 0 outside [1/m].
   float extinction(const Vec<3>& x) const;
 
-  /// Share of the light that comes through the smoke to x, in it or anywhere: of the sun, exp(-integral of the
-  /// extinction along the way); of the sky, the mean over some directions.
+  /// Share of the light that comes through the smoke to x: of the sun, exp(-integral of the extinction along the way),
+  /// anywhere; of the sky, the mean over some directions, that outside nears 1 over some cells.
   float sunlight(const Vec<3>& x) const;
   float skylight(const Vec<3>& x) const;
 
   /// Goes along eye + t direction through the smoke, front to back from t = `from` to `to`: adds to what is seen
-  ///   clear' = -extinction clear,  sun' = extinction clear sunlight(x),  sky likewise,  over the length of the way,
-  /// where light that is turned more than once is dimmed less. Samples are taken at whole numbers plus `jitter` [0, 1)
-  /// of half cells.
+  ///   clear' = -extinction clear,  sun' = extinction clear with_turned(sunlight(x)),  sky likewise,  over the length
+  ///   of
+  /// the way.   jitter: where in each step of a third of a cell the sample is taken, 0 to 1
   void pass(Seen& seen, const Vec<3>& eye, const Vec<3>& direction, double from, double to, double jitter) const;
 
  private:
   using Values = std::vector<float>;
+  static constexpr int block = 4;  ///< cells along the edge of a block that is skipped where it is clear
   struct Corner;
 
   std::size_t at(int i, int j, int k) const {
@@ -68,8 +78,9 @@ class SmokeVolume {
   }
   void take(const SmokeLattice& lattice, double opaque, std::size_t most_cells);
   Values depth_towards(const Vec<3>& light) const;
+  void extend_into_ground(std::vector<std::uint8_t>& unknown);
+  void spread();
   void mark_blocks();
-  float light_at(const Values& light, const Vec<3>& towards, const Vec<3>& x) const;
   float between(const Values& values, const Corner& corner) const;
   bool range(const Vec<3>& eye, const Vec<3>& direction, double& from, double& to) const;
 
@@ -79,7 +90,7 @@ class SmokeVolume {
   Light light_;
   Values extinction_;  ///< [1/m]
   Values sunlight_, skylight_;
-  Index<3> blocks_{};                ///< of 4^3 cells
+  Index<3> blocks_{};                ///< of block^3 cells
   std::vector<std::uint8_t> smoky_;  ///< a block: whether anything in it or just beside it has smoke
 };
 

@@ -63,8 +63,8 @@ SunMap::SunMap(const Landscape& landscape, const ReliefSurface* surface, const L
 
 float SunMap::lit(const Vec<3>& x, const Vec<3>& normal) const {
   if (nearness_.empty()) return 1;
-  // Off the surface and towards the sun, by as much as cells of the raster are wrong about a slanting surface.
-  const Vec<3> from = x + cell_ * (1.5 * normal + 0.5 * sun_);
+  // Off the surface by the reach of the mean below, or a slanting surface would shade itself.
+  const Vec<3> from = x + cell_ * (2.8 * normal + 0.5 * sun_);
   const float own = static_cast<float>(from.dot(sun_) - farthest_);
   const double u = (from.dot(across_) - lower_[0]) / cell_ - 0.5, v = (from.dot(along_) - lower_[1]) / cell_ - 0.5;
   if (!(std::abs(u) < 1e6 && std::abs(v) < 1e6)) return 1;

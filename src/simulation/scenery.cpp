@@ -18,8 +18,8 @@ constexpr double sun_elevation = 38 * degrees;
 constexpr double picture_rim = 0.04;  // kept free around the ground
 constexpr double headroom = 0.10;     // over the ground that is seen too, of the domain's extent
 
-constexpr int points_along = 420;  // of the ground, along the domain's longer side
-constexpr double beyond = 0.30;    // of the domain's shorter side: ground that fades away around it
+constexpr int points_along = 300;  // of the ground, along the domain's longer side
+constexpr double beyond = 0.60;    // of the domain's longer side: ground that fades away around it
 
 /// Radius of a ball of the volume of a cube of edge 1.
 const double ball_of_cube = std::cbrt(3 / (4 * std::numbers::pi));
@@ -63,6 +63,48 @@ Box<3> bounds(std::span<const Vec<3>> points) {
   return box;
 }
 
+/// Between four points of a grid, at (s, t) in its steps; beyond it as at its edge.
+float between(const std::vector<float>& values, const Index<2>& shape, double s, double t) {
+  s = std::clamp(s, 0.0, shape[0] - 1.0), t = std::clamp(t, 0.0, shape[1] - 1.0);
+  const int i = static_cast<int>(s), j = static_cast<int>(t);
+  const float a = static_cast<float>(s - i), b = static_cast<float>(t - j);
+  const auto at = [&](int x, int y) {
+    return values[flat<2>({std::min(x, shape[0] - 1), std::min(y, shape[1] - 1)}, shape)];
+  };
+  return (1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) + b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
+}
+
+/// Each value the mean of it, twice, and its neighbours, along both axes; that so many times.
+std::vector<float> softened(std::vector<float> values, const Index<2>& shape, int times) {
+  std::vector<float> before(values.size());
+  for (; times > 0; --times) {
+    before.swap(values);
+    const auto soften = [&](std::size_t c) {
+      const Index<2> i = unflat<2>(c, shape);
+      float sum = 0, weights = 0;
+      for_each_index<2>({3, 3}, [&](const Index<2>& step) {
+        const Index<2> other{i[0] + step[0] - 1, i[1] + step[1] - 1};
+        if (!inside<2>(other, shape)) return;
+        const float weight = (step[0] == 1 ? 2.0f : 1.0f) * (step[1] == 1 ? 2.0f : 1.0f);
+        sum += weight * before[flat<2>(other, shape)];
+        weights += weight;
+      });
+      values[c] = sum / weights;
+    };
+    parallel_for(values.size(), soften, 2048);
+  }
+  return values;
+}
+
+/// The median of those above 0, else 0.
+float middle_one(std::vector<float> values) {
+  std::erase_if(values, [](float v) { return !(v > 0); });
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 View preview_view(const Scene& scene) {
@@ -85,12 +127,13 @@ void Scenery::fill_ground(const Scene& scene) {
   obstacles_ = walls.obstacles;
   if (!walls.terrain && walls.sides[2][0] == Side::open) return;
   const Vec<2> size = domain_.size().head<2>();
-  const double rim = beyond * size.minCoeff();
+  const double rim = beyond * size.maxCoeff();
   ground_.spacing = std::max(size.maxCoeff() / points_along, size.minCoeff() / (4 * points_along));
   ground_.origin = domain_.lower.head<2>() - Vec<2>::Constant(rim);
   for (int k = 0; k < 2; ++k)
     ground_.shape[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil((size[k] + 2 * rim) / ground_.spacing)) + 1;
-  ground_.shown = {domain_.lower.head<2>(), domain_.upper.head<2>()};
+  const Vec<2> clear = Vec<2>::Constant(0.3 * rim);
+  ground_.shown = {domain_.lower.head<2>() - clear, domain_.upper.head<2>() + clear};
   ground_.height.reserve(count<2>(ground_.shape));
   for_each_index<2>(ground_.shape, [&](const Index<2>& i) {
     const double z = walls.terrain ? walls.terrain->height(ground_.place(i)[0]) : domain_.lower[2];
@@ -141,17 +184,6 @@ void Scenery::add_cover(Relief& ground, const PictureFrame& frame) const {
     edge[k] = size[k] / bins[static_cast<std::size_t>(k)];
   }
   std::vector<float> depth(count<2>(bins), 0.0f);
-  // Between four points of a grid; beyond it as at its edge.
-  const auto between = [](const std::vector<float>& values, const Index<2>& shape, double s, double t) {
-    s = std::clamp(s, 0.0, shape[0] - 1.0), t = std::clamp(t, 0.0, shape[1] - 1.0);
-    const int i = std::min(static_cast<int>(s), std::max(shape[0] - 2, 0));
-    const int j = std::min(static_cast<int>(t), std::max(shape[1] - 2, 0));
-    const float a = static_cast<float>(s - i), b = static_cast<float>(t - j);
-    const auto at = [&](int x, int y) {
-      return values[flat<2>({std::min(x, shape[0] - 1), std::min(y, shape[1] - 1)}, shape)];
-    };
-    return (1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) + b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
-  };
   for (std::size_t i = 0; i < frame.layer.size(); ++i) {
     if (frame.layer[i] == 0) continue;
     const float* const x = frame.positions.data() + 3 * i;
@@ -164,27 +196,19 @@ void Scenery::add_cover(Relief& ground, const PictureFrame& frame) const {
     float& top = depth[flat<2>(bin, bins)];
     top = std::max(top, x[2] - base + static_cast<float>(spacing_ / 2));
   }
-  // The mean with the neighbours, so that single particles do not show.
-  std::vector<float> smooth(depth.size());
-  const auto soften = [&](std::size_t c) {
-    const Index<2> i = unflat<2>(c, bins);
-    float sum = 0, weights = 0;
-    for (int dj = -1; dj <= 1; ++dj)
-      for (int di = -1; di <= 1; ++di) {
-        const Index<2> other{i[0] + di, i[1] + dj};
-        if (!inside<2>(other, bins)) continue;
-        const float weight = (di == 0 ? 2.0f : 1.0f) * (dj == 0 ? 2.0f : 1.0f);
-        sum += weight * depth[flat<2>(other, bins)];
-        weights += weight;
-      }
-    smooth[c] = sum / weights;
-  };
-  parallel_for(depth.size(), soften, 2048);
+  // Softened, so that single particles do not show. Beyond the domain snow goes on as it lies along the edge, but even.
+  const std::vector<float> smooth = softened(depth, bins, 1), even = softened(smooth, bins, 8);
+  const float full = middle_one(even);
   ground.snow.resize(ground.height.size());
   const auto raise = [&](std::size_t n) {
     const Vec<2> place = ground.place(unflat<2>(n, ground.shape)) - domain_.lower.head<2>();
-    ground.snow[n] = between(smooth, bins, place[0] / edge[0] - 0.5, place[1] / edge[1] - 0.5);
-    ground.height[n] += ground.snow[n];
+    const double s = place[0] / edge[0] - 0.5, t = place[1] / edge[1] - 0.5;
+    const Vec<2> outside = (place - place.cwiseMax(0).cwiseMin(size)).cwiseQuotient(edge);
+    const float share = static_cast<float>(std::min(outside.norm() / 4, 1.0));
+    float snow = (1 - share) * between(smooth, bins, s, t);
+    if (share > 0) snow += share * std::min(between(even, bins, s, t), full);
+    ground.snow[n] = snow;
+    ground.height[n] += snow;
   };
   parallel_for(ground.height.size(), raise, 2048);
 }
