@@ -27,10 +27,10 @@ inline constexpr Rgb sky{0.40f, 0.52f, 0.76f};  ///< on a surface that sees all 
 
 /// Share of the light that comes back from each.
 namespace albedos {
-inline constexpr Rgb snow{0.50f, 0.54f, 0.60f};
+inline constexpr Rgb snow{0.54f, 0.58f, 0.64f};
 inline constexpr Rgb bare{0.105f, 0.086f, 0.072f};
 inline constexpr Rgb released{0.80f, 0.88f, 0.98f};
-inline constexpr Rgb entrained{0.66f, 0.69f, 0.73f};
+inline constexpr Rgb entrained{0.58f, 0.61f, 0.66f};
 inline constexpr Rgb box{0.36f, 0.27f, 0.21f};
 inline constexpr Rgb smoke{0.94f, 0.96f, 0.99f};
 }  // namespace albedos

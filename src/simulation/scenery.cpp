@@ -206,7 +206,9 @@ void Scenery::add_cover(Relief& ground, const PictureFrame& frame) const {
     const Vec<2> outside = (place - place.cwiseMax(0).cwiseMin(size)).cwiseQuotient(edge);
     const float share = static_cast<float>(std::min(outside.norm() / 4, 1.0));
     float snow = (1 - share) * between(smooth, bins, s, t);
-    if (share > 0) snow += share * std::min(between(even, bins, s, t), full);
+    // As deep as usual, but where there is none: its end stays where it is.
+    if (share > 0 && full > 0)
+      snow += share * full * std::clamp(4 * between(even, bins, s, t) / full - 1.5f, 0.0f, 1.0f);
     ground.snow[n] = snow;
     ground.height[n] += snow;
   };

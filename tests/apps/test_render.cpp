@@ -107,7 +107,7 @@ TEST_CASE("what cannot be drawn is told with what was expected, and nothing is w
       Row{"r --camera 1,2,nan", "--camera: got"}, Row{"r --camera 1,2,3,", "--camera: got"},
       Row{"r --camera 1,91,3", "--camera: got 91, expected -90 to 90 degrees of elevation"},
       Row{"r --camera 1,2,0", "--camera: got 0, expected 0.001 to 1e+09 m of distance"},
-      Row{"r --camera 1,2,3 --azimuth 4", "--azimuth excludes"}, Row{"r --sun 100", "--sun: got \"100\", expected"},
+      Row{"r --camera 1,2,3 --azimuth 4", "--camera excludes"}, Row{"r --sun 100", "--sun: got \"100\", expected"},
       Row{"r --sun 100,-1", "--sun: got -1, expected 0 to 90 degrees of elevation"}, Row{"r --zoom 0", "--zoom: "},
       Row{"r --every 0", "--every: "}, Row{"r --elevation 91", "--elevation: "},
       Row{"r --every 2 --frame 1", "--every excludes"});
