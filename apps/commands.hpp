@@ -21,6 +21,7 @@ void add_scene(CLI::App& app, Command& chosen);
 void add_info(CLI::App& app, Command& chosen);
 void add_completion(CLI::App& app, Command& chosen);
 void add_export(CLI::App& app, Command& chosen);
+void add_render(CLI::App& app, Command& chosen);
 void add_verify(CLI::App& app, Command& chosen);
 
 /// Calls f for every option of the command that has a long name, those of its groups too.

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "counter.hpp"
 #include "export_frame.hpp"
 #include "io/commit.hpp"
 #include "io/frame_files.hpp"
@@ -67,24 +67,6 @@ Error nothing_chosen(const ExportArguments& arguments) {
                                            arguments.frame.value_or(0), kind, first, last)};
 }
 
-/// Tells on a terminal how far it is; elsewhere nothing.
-class Counter {
- public:
-  explicit Counter(std::size_t n) : n_(n), on_terminal_(isatty(STDERR_FILENO) != 0) {}
-  ~Counter() {
-    if (on_terminal_) fmt::print(stderr, "\r\x1b[K");
-  }
-  Counter(const Counter&) = delete;
-  Counter& operator=(const Counter&) = delete;
-  void count() {
-    if (on_terminal_) fmt::print(stderr, "\r{} of {} files\x1b[K", ++done_, n_);
-  }
-
- private:
-  std::size_t n_, done_ = 0;
-  bool on_terminal_;
-};
-
 ExitCode export_run(const ExportArguments& arguments) {
   require_known("--to", arguments.format, {export_formats.begin(), export_formats.end()});
   if (!arguments.only.empty()) require_known("--only", arguments.only, layers);
@@ -104,7 +86,7 @@ ExitCode export_run(const ExportArguments& arguments) {
   make_folder(out);
   double bytes_written = 0;
   {
-    Counter counter(n_files);
+    Counter counter(n_files, "files");
     for (std::size_t k = 0; k < layers.size(); ++k) {
       const std::string layer(layers[k]);
       std::vector<SeriesEntry> series;

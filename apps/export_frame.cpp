@@ -19,12 +19,7 @@ namespace fs = std::filesystem;
 
 template <class T>
 const std::vector<T>& values_of(const StoredFrame& frame, const std::string& name, const fs::path& file) {
-  const auto array = std::ranges::find(frame.arrays, name, &StoredArray::name);
-  const auto* values = array == frame.arrays.end() ? nullptr : std::get_if<std::vector<T>>(&array->values);
-  if (values == nullptr)
-    throw Error(ExitCode::incompatible_file,
-                fmt::format("{}: expected an array \"{}\" as `spindrift run` writes it", file.string(), name));
-  return *values;
+  return array_values<T>(frame.arrays, name, file.string());
 }
 
 /// The frame's points, ids first; `positions` are not among the arrays.

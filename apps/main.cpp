@@ -69,6 +69,7 @@ int run_program(int argc, char** argv) {
   add_info(app, chosen);
   add_completion(app, chosen);
   add_export(app, chosen);
+  add_render(app, chosen);
   add_verify(app, chosen);
   try {
     app.parse(argc, argv);

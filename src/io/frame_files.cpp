@@ -48,6 +48,11 @@ StoredFrame read_frame_file(const fs::path& path) {
   return read_vtkhdf(std::as_bytes(std::span(text)), path.string());
 }
 
+void missing_array(const std::string& name, const std::string& file) {
+  throw Error(ExitCode::incompatible_file,
+              fmt::format("{}: expected an array \"{}\" as `spindrift run` writes it", file, name));
+}
+
 double frame_number(const StoredFrame& frame, const std::string& name, const fs::path& file) {
   for (const Attribute& attribute : frame.attributes)
     if (attribute.name == name)

@@ -25,6 +25,19 @@ std::vector<FrameFile> frame_files(const std::filesystem::path& run, const std::
 /// Throws    Error(io_failed): the file cannot be read;  Error(incompatible_file): it is no frame.
 StoredFrame read_frame_file(const std::filesystem::path& path);
 
+[[noreturn]] void missing_array(const std::string& name, const std::string& file);
+
+/// The values of the array `name` among those of a frame.
+/// Throws    Error(incompatible_file): `file` has no such array, or one of another type than T.
+template <class T>
+const std::vector<T>& array_values(const std::vector<StoredArray>& arrays, const std::string& name,
+                                   const std::string& file) {
+  for (const StoredArray& array : arrays)
+    if (array.name == name)
+      if (const auto* values = std::get_if<std::vector<T>>(&array.values)) return *values;
+  missing_array(name, file);
+}
+
 /// A number that describes a whole frame, as "time" [s].   Throws Error(incompatible_file): `file` has none.
 double frame_number(const StoredFrame& frame, const std::string& name, const std::filesystem::path& file);
 

@@ -102,6 +102,14 @@ void Picture::sky() {
   cairo_pattern_destroy(gradient);
 }
 
+void Picture::pixels(std::span<const std::uint32_t> all) {
+  const std::size_t width = static_cast<std::size_t>(canvas_->width);
+  SPINDRIFT_CHECK(all.size() == width * static_cast<std::size_t>(canvas_->height));
+  Canvas::Pixels pixels(canvas_->surface);
+  for (int y = 0; y < canvas_->height; ++y)
+    std::copy_n(all.data() + static_cast<std::size_t>(y) * width, width, pixels.row(y));
+}
+
 void Picture::ground(std::span<const Vec<2>> surface) {
   if (surface.empty()) return;
   cairo_t* const context = canvas_->context;

@@ -50,6 +50,9 @@ class Picture {
 
   void sky();
 
+  /// All of it at once: width() x height() pixels 0xffRRGGBB, rows from above.
+  void pixels(std::span<const std::uint32_t> all);
+
   /// Everything below the polyline `surface` [m], left to right; its ends go on level.
   void ground(std::span<const Vec<2>> surface);
 

@@ -22,6 +22,7 @@ constexpr double file_bytes_per_particle = 12, file_bytes_per_cell = 8, bytes_pe
 constexpr double bytes_per_diagnostics_row = 800;
 // Seconds of one core, as measured.
 constexpr double seconds_per_dense_step = 1.9e-6, seconds_per_cell_step = 5.5e-8, seconds_per_frame = 0.05;
+constexpr double seconds_per_3d_picture = 1, bytes_per_3d_picture = 600e3;  // 1380 px wide
 constexpr double growth_by_cover = 2;  // of the number of moving particles, as a mean over a run
 
 /// Arc length of the ground [m], without its arcs and bumps.
@@ -146,14 +147,17 @@ Plan plan_scene(const Scene& scene) {
   plan.n_frames = std::floor(scene.scene.end_time * output.frames_per_second) + 1;
   plan.memory = bytes_of_program + bytes_per_dense * plan.n_release + bytes_per_cover * plan.n_cover +
                 bytes_per_cell * plan.n_cells;
-  plan.disk = plan.n_frames *
-                  ((output.particles ? file_bytes_per_particle * n_particles : 0) +
-                   (output.smoke ? file_bytes_per_cell * plan.n_cells : 0) + (output.preview ? bytes_per_picture : 0)) +
+  const bool deep = scene.scene.dim == 3;
+  const double picture_bytes = !output.preview ? 0 : deep ? bytes_per_3d_picture : bytes_per_picture;
+  const double picture_seconds = output.preview && deep ? seconds_per_3d_picture : 0;
+  plan.disk = plan.n_frames * ((output.particles ? file_bytes_per_particle * n_particles : 0) +
+                               (output.smoke ? file_bytes_per_cell * plan.n_cells : 0) + picture_bytes) +
               bytes_per_diagnostics_row * plan.n_steps;
   const double n_moving = plan.n_release * (scene.entrainment ? growth_by_cover : 1);
   const double work = n_moving * seconds_per_dense_step + plan.n_cells * seconds_per_cell_step;
   const double n_cores = n_threads();
-  plan.seconds = (plan.n_steps * work + plan.n_frames * seconds_per_frame) / (n_cores > 1 ? 0.85 * n_cores : 1);
+  const double drawn = plan.n_frames * (seconds_per_frame + picture_seconds);
+  plan.seconds = (plan.n_steps * work + drawn) / (n_cores > 1 ? 0.85 * n_cores : 1);
   return plan;
 }
 

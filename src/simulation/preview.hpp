@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "io/picture.hpp"
+#include "simulation/picture_frame.hpp"
 #include "simulation/simulation.hpp"
 
 namespace spindrift {
@@ -29,5 +30,8 @@ struct PreviewFrame {
 };
 
 PreviewFrame preview_frame(const Simulation<2>& simulation);
+
+/// The same of a frame that was read back, to the digits that it holds.
+PreviewFrame preview_frame(const Scene& scene, const Walls<2>& walls, const PictureFrame& stored);
 
 }  // namespace spindrift

@@ -55,6 +55,7 @@ Recorder<Dim>::Recorder(const Scene& scene, const RunOptions& options)
     : options_(options), output_(scene.output), start_(std::chrono::steady_clock::now()) {
   prepare_folder(options, scene.output);
   commit(options_.folder / "scene.toml", write_scene(scene));
+  if (Dim == 3 && scene.output.preview) scenery_.emplace(scene, preview_view(scene));
 }
 
 template <int Dim>
@@ -101,21 +102,37 @@ void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
     const std::string name = frame_path(layer, number).string();
     series.push_back({name, simulation.time()});
     writer_.submit([path = folder / name, index = folder / (layer + ".hdf.series"), series, frame = std::move(frame)] {
-      commit(path, frame.file());
+      commit(path, frame->file());
       commit_series(index, series);
     });
   };
-  if (output_.particles && simulation.dense()) write("particles", particle_series_, particle_frame(simulation));
-  if (output_.smoke && simulation.suspension()) write("smoke", smoke_series_, smoke_frame(simulation));
-  if constexpr (Dim == 2) {
-    if (output_.preview)
-      writer_.submit([path = folder / "preview" / fmt::format("{:06}.png", number), frame = preview_frame(simulation)] {
-        commit(path, frame.png());
-      });
-  }
+  // Pictures of 3D runs show frames, also where these are not to be written.
+  const bool needed = scenery_.has_value();
+  std::shared_ptr<const ParticleFrame> snow;
+  std::shared_ptr<const SmokeFrame> smoke;
+  if (simulation.dense() && (output_.particles || needed))
+    snow = std::make_shared<ParticleFrame>(particle_frame(simulation));
+  if (simulation.suspension() && (output_.smoke || needed))
+    smoke = std::make_shared<SmokeFrame>(smoke_frame(simulation));
+  if (output_.particles && snow) write("particles", particle_series_, snow);
+  if (output_.smoke && smoke) write("smoke", smoke_series_, smoke);
+  if (output_.preview) draw_preview(simulation, number, std::move(snow), std::move(smoke));
   writer_.submit([this] { ++n_committed_; });
   diagnostics_->flush();
   write_summary(simulation, "running", {});
+}
+
+template <int Dim>
+void Recorder<Dim>::draw_preview(const Simulation<Dim>& simulation, std::uint64_t number,
+                                 std::shared_ptr<const ParticleFrame> snow, std::shared_ptr<const SmokeFrame> smoke) {
+  const fs::path path = options_.folder / "preview" / fmt::format("{:06}.png", number);
+  if constexpr (Dim == 2) {
+    writer_.submit([path, frame = preview_frame(simulation)] { commit(path, frame.png()); });
+  } else {
+    writer_.submit([path, time = simulation.time(), snow, smoke, this] {
+      commit(path, scenery_->png(picture_frame(time, snow.get(), smoke.get())));
+    });
+  }
 }
 
 template <int Dim>
@@ -147,7 +164,7 @@ void Recorder<Dim>::give_up(const Simulation<Dim>& simulation, const std::string
 /// Last of all, so that whoever is ended meanwhile has everything else.
 template <int Dim>
 void Recorder<Dim>::write_film() {
-  if (Dim != 2 || !output_.preview || n_frames_ == 0) return;
+  if (!output_.preview || n_frames_ == 0) return;
   Film film;
   film.folder = options_.folder;
   film.frames_per_second = output_.frames_per_second;

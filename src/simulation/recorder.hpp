@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "io/series.hpp"
 #include "simulation/instruments.hpp"
 #include "simulation/run.hpp"
+#include "simulation/scenery.hpp"
 
 namespace spindrift {
 
@@ -44,12 +46,15 @@ class Recorder {
 
  private:
   void write_frame(const Simulation<Dim>& simulation);
+  void draw_preview(const Simulation<Dim>& simulation, std::uint64_t number, std::shared_ptr<const ParticleFrame> snow,
+                    std::shared_ptr<const SmokeFrame> smoke);
   void write_diagnostics(const Simulation<Dim>& simulation);
   void write_summary(const Simulation<Dim>& simulation, const std::string& status, const std::string& message);
   void write_film();
 
   RunOptions options_;
   OutputSection output_;
+  std::optional<Scenery> scenery_;  ///< of pictures in 3D
   std::chrono::steady_clock::time_point start_;
   Instruments<Dim> instruments_;
   std::uint64_t next_frame_ = 0, n_frames_ = 0;

@@ -237,9 +237,11 @@ void add_rest(Registry& r) {
       .plain<&O::particles>("particles", "write the particles of each frame")
       .plain<&O::smoke>("smoke", "write the smoke of each frame")
       .plain<&O::preview>("preview", "draw a picture of each frame")
-      .number<&O::preview_width>("preview_width", "", from(16, 16384), "of the pictures, in pixels")
-      .number<&O::opaque_smoke>("opaque_smoke", "kg/m^3", above(0, 1e4),
-                                "smoke that hides 63 % of what is behind it in the pictures");
+      .number<&O::preview_width>("preview_width", "", from(16, 16384),
+                                 "of the pictures, in pixels; in 3D they are 16 to 9")
+      .number<&O::opaque_smoke>(
+          "opaque_smoke", "kg/m^3", above(0, 1e4),
+          "smoke that hides 63 % of what is behind it in the pictures, in 3D behind a metre of it");
 }
 
 const Registry& registry() {

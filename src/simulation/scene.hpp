@@ -170,7 +170,8 @@ struct OutputSection {
   bool particles = true, smoke = true;
   bool preview = true;
   int preview_width = 1380;  ///< [px]
-  double opaque_smoke = 1;   ///< density that hides 63 % of what is behind it in the pictures [kg m^-3]
+  /// density that hides 63 % of what is behind it in the pictures, in 3D behind a metre of it [kg m^-3]
+  double opaque_smoke = 1;
 };
 
 struct Scene {

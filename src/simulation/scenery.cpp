@@ -1,0 +1,249 @@
+#include "simulation/scenery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.hpp"
+#include "simulation/setup.hpp"
+
+namespace spindrift {
+namespace {
+
+constexpr double degrees = std::numbers::pi / 180;
+constexpr double aside = 50 * degrees;  // of the camera from the valley's side
+constexpr double camera_elevation = 24 * degrees;
+constexpr double sun_aside = 65 * degrees;  // of the sun to the left of the camera
+constexpr double sun_elevation = 38 * degrees;
+constexpr double picture_rim = 0.04;  // kept free around the ground
+constexpr double headroom = 0.10;     // over the ground that is seen too, of the domain's extent
+
+constexpr int points_along = 300;  // of the ground, along the domain's longer side
+constexpr double beyond = 0.60;    // of the domain's longer side: ground that fades away around it
+
+/// Radius of a ball of the volume of a cube of edge 1.
+const double ball_of_cube = std::cbrt(3 / (4 * std::numbers::pi));
+
+/// Where the ground falls to, as seen from above; east where it is level.
+double downhill(std::span<const Vec<3>> ground, const Compass& compass) {
+  Vec<3> middle = Vec<3>::Zero();
+  for (const Vec<3>& x : ground) middle += x / static_cast<double>(ground.size());
+  // The plane through the ground, by least squares.
+  Mat<2> squares = Mat<2>::Zero();
+  Vec<2> rise = Vec<2>::Zero();
+  for (const Vec<3>& x : ground) {
+    const Vec<3> d = x - middle;
+    const Vec<2> level(d.dot(compass.east), d.dot(compass.north));
+    squares += level * level.transpose();
+    rise += level * d.dot(compass.up);
+  }
+  const Vec<2> slope = squares.inverse() * rise;
+  const double steep = slope.norm();
+  if (!(steep > 0.02)) return compass.azimuth_of(compass.east);
+  return compass.azimuth_of(-slope[0] * compass.east - slope[1] * compass.north);
+}
+
+/// Ground within the domain, on a coarse grid.
+std::vector<Vec<3>> ground_points(const Relief& ground, const Box<3>& domain) {
+  std::vector<Vec<3>> points;
+  const Index<2> step{std::max(1, ground.shape[0] / 32), std::max(1, ground.shape[1] / 32)};
+  for (int j = 0; j < ground.shape[1]; j += step[1])
+    for (int i = 0; i < ground.shape[0]; i += step[0]) {
+      const Vec<2> place = ground.place({i, j}).cwiseMax(domain.lower.head<2>()).cwiseMin(domain.upper.head<2>());
+      if ((place - ground.place({i, j})).norm() > std::max(step[0], step[1]) * ground.spacing) continue;
+      const float z = ground.height[flat<2>({i, j}, ground.shape)];
+      if (std::isfinite(z)) points.emplace_back(place[0], place[1], static_cast<double>(z));
+    }
+  return points;
+}
+
+Box<3> bounds(std::span<const Vec<3>> points) {
+  Box<3> box{points.front(), points.front()};
+  for (const Vec<3>& x : points) box = {box.lower.cwiseMin(x), box.upper.cwiseMax(x)};
+  return box;
+}
+
+/// Between four points of a grid, at (s, t) in its steps; beyond it as at its edge.
+float between(const std::vector<float>& values, const Index<2>& shape, double s, double t) {
+  s = std::clamp(s, 0.0, shape[0] - 1.0), t = std::clamp(t, 0.0, shape[1] - 1.0);
+  const int i = static_cast<int>(s), j = static_cast<int>(t);
+  const float a = static_cast<float>(s - i), b = static_cast<float>(t - j);
+  const auto at = [&](int x, int y) {
+    return values[flat<2>({std::min(x, shape[0] - 1), std::min(y, shape[1] - 1)}, shape)];
+  };
+  return (1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) + b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
+}
+
+/// Each value the mean of it, twice, and its neighbours, along both axes; that so many times.
+std::vector<float> softened(std::vector<float> values, const Index<2>& shape, int times) {
+  std::vector<float> before(values.size());
+  for (; times > 0; --times) {
+    before.swap(values);
+    const auto soften = [&](std::size_t c) {
+      const Index<2> i = unflat<2>(c, shape);
+      float sum = 0, weights = 0;
+      for_each_index<2>({3, 3}, [&](const Index<2>& step) {
+        const Index<2> other{i[0] + step[0] - 1, i[1] + step[1] - 1};
+        if (!inside<2>(other, shape)) return;
+        const float weight = (step[0] == 1 ? 2.0f : 1.0f) * (step[1] == 1 ? 2.0f : 1.0f);
+        sum += weight * before[flat<2>(other, shape)];
+        weights += weight;
+      });
+      values[c] = sum / weights;
+    };
+    parallel_for(values.size(), soften, 2048);
+  }
+  return values;
+}
+
+/// The median of those above 0, else 0.
+float middle_one(std::vector<float> values) {
+  std::erase_if(values, [](float v) { return !(v > 0); });
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+View preview_view(const Scene& scene) {
+  View view;
+  view.width = scene.output.preview_width / 2 * 2;
+  view.height = (view.width * 9 + 16) / 32 * 2;
+  return view;
+}
+
+Scenery::Scenery(const Scene& scene, const View& view) : opaque_smoke_(scene.output.opaque_smoke) {
+  fill_ground(scene);
+  if (scene.dense_flow) spacing_ = scene.dense_flow->spacing();
+  const Compass compass(make_gravity<3>(scene));
+  place_camera(compass, view);
+}
+
+void Scenery::fill_ground(const Scene& scene) {
+  const Walls<3> walls = make_walls<3>(scene);
+  domain_ = walls.domain;
+  obstacles_ = walls.obstacles;
+  if (!walls.terrain && walls.sides[2][0] == Side::open) return;
+  const Vec<2> size = domain_.size().head<2>();
+  const double rim = beyond * size.maxCoeff();
+  ground_.spacing = std::max(size.maxCoeff() / points_along, size.minCoeff() / (4 * points_along));
+  ground_.origin = domain_.lower.head<2>() - Vec<2>::Constant(rim);
+  for (int k = 0; k < 2; ++k)
+    ground_.shape[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil((size[k] + 2 * rim) / ground_.spacing)) + 1;
+  const Vec<2> clear = Vec<2>::Constant(0.3 * rim);
+  ground_.shown = {domain_.lower.head<2>() - clear, domain_.upper.head<2>() + clear};
+  ground_.height.reserve(count<2>(ground_.shape));
+  for_each_index<2>(ground_.shape, [&](const Index<2>& i) {
+    const double z = walls.terrain ? walls.terrain->height(ground_.place(i)[0]) : domain_.lower[2];
+    ground_.height.push_back(static_cast<float>(z));
+  });
+}
+
+void Scenery::place_camera(const Compass& compass, const View& view) {
+  std::vector<Vec<3>> ground = ground_.empty() ? std::vector<Vec<3>>{} : ground_points(ground_, domain_);
+  const bool none = ground.empty();
+  if (none)
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec<3> x = domain_.lower;
+      for (int k = 0; k < 3; ++k)
+        if (corner >> k & 1) x[k] = domain_.upper[k];
+      ground.push_back(x);
+    }
+  const Box<3> extent = bounds(ground);
+  const Vec<3> middle = (extent.lower + extent.upper) / 2;
+
+  Outlook outlook;
+  outlook.azimuth = view.azimuth.value_or(downhill(ground, compass) + aside);
+  outlook.elevation = view.elevation.value_or(camera_elevation);
+  if (!none) {
+    const std::size_t n = ground.size();
+    const double room = std::min(headroom * extent.size().norm(), domain_.size()[2]);
+    for (std::size_t i = 0; i < n; ++i) ground.push_back(ground[i] + room * compass.up);
+  }
+  camera_ = camera_around(ground, picture_rim, outlook, compass, view.width, view.height);
+  middle_depth_ = camera_.project(middle).depth;
+  if (view.distance || view.zoom != 1) {
+    middle_depth_ = view.distance.value_or(middle_depth_) / view.zoom;
+    camera_ = camera_at(middle, middle_depth_, outlook, compass, view.width, view.height);
+  }
+  light_.up = compass.up;
+  light_.sun = compass.direction(view.sun_azimuth.value_or(outlook.azimuth + sun_aside),
+                                 view.sun_elevation.value_or(sun_elevation));
+}
+
+/// Raises the ground by the cover that lies on it: the highest of its particles over squares of two particles' edge.
+void Scenery::add_cover(Relief& ground, const PictureFrame& frame) const {
+  const Vec<2> size = domain_.size().head<2>();
+  const double wanted = std::max(2 * spacing_, ground.spacing);
+  Index<2> bins;
+  Vec<2> edge;
+  for (int k = 0; k < 2; ++k) {
+    bins[static_cast<std::size_t>(k)] = std::max(1, static_cast<int>(size[k] / wanted));
+    edge[k] = size[k] / bins[static_cast<std::size_t>(k)];
+  }
+  std::vector<float> depth(count<2>(bins), 0.0f);
+  for (std::size_t i = 0; i < frame.layer.size(); ++i) {
+    if (frame.layer[i] == 0) continue;
+    const float* const x = frame.positions.data() + 3 * i;
+    const double u = static_cast<double>(x[0]) - domain_.lower[0], v = static_cast<double>(x[1]) - domain_.lower[1];
+    if (!(u >= 0 && v >= 0 && u < size[0] && v < size[1])) continue;
+    const float base = between(ground_.height, ground_.shape, (x[0] - ground_.origin[0]) / ground_.spacing,
+                               (x[1] - ground_.origin[1]) / ground_.spacing);
+    const Index<2> bin{std::min(static_cast<int>(u / edge[0]), bins[0] - 1),
+                       std::min(static_cast<int>(v / edge[1]), bins[1] - 1)};
+    float& top = depth[flat<2>(bin, bins)];
+    top = std::max(top, x[2] - base + static_cast<float>(spacing_ / 2));
+  }
+  // Softened, so that single particles do not show. Beyond the domain snow goes on as it lies along the edge, but even.
+  const std::vector<float> smooth = softened(depth, bins, 1), even = softened(smooth, bins, 8);
+  const float full = middle_one(even);
+  ground.snow.resize(ground.height.size());
+  const auto raise = [&](std::size_t n) {
+    const Vec<2> place = ground.place(unflat<2>(n, ground.shape)) - domain_.lower.head<2>();
+    const double s = place[0] / edge[0] - 0.5, t = place[1] / edge[1] - 0.5;
+    const Vec<2> outside = (place - place.cwiseMax(0).cwiseMin(size)).cwiseQuotient(edge);
+    const float share = static_cast<float>(std::min(outside.norm() / 4, 1.0));
+    float snow = (1 - share) * between(smooth, bins, s, t);
+    // As deep as usual, but where there is none: its end stays where it is.
+    if (share > 0 && full > 0)
+      snow += share * full * std::clamp(4 * between(even, bins, s, t) / full - 1.5f, 0.0f, 1.0f);
+    ground.snow[n] = snow;
+    ground.height[n] += snow;
+  };
+  parallel_for(ground.height.size(), raise, 2048);
+}
+
+Landscape Scenery::landscape(const PictureFrame& frame) const {
+  Landscape landscape;
+  landscape.ground = ground_;
+  landscape.boxes = obstacles_;
+  landscape.opaque_smoke = opaque_smoke_;
+  landscape.snow_radius = ball_of_cube * spacing_;
+  if (!ground_.empty() && !frame.positions.empty()) add_cover(landscape.ground, frame);
+  for (std::size_t i = 0; i < frame.layer.size(); ++i) {
+    if (frame.layer[i] != 0) continue;
+    const float* const x = frame.positions.data() + 3 * i;
+    landscape.snow.push_back(Eigen::Map<const Eigen::Vector3f>(x).cast<double>());
+    landscape.snow_kind.push_back(frame.entrained_at[i] >= 0);
+  }
+  if (!frame.smoke.empty()) {
+    SmokeLattice& smoke = landscape.smoke;
+    smoke.density = frame.smoke;
+    smoke.solid = frame.solid;
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      smoke.shape[axis] = static_cast<int>(frame.lattice.shape[axis]);
+      smoke.origin[k] = frame.lattice.origin[axis];
+    }
+    smoke.spacing = frame.lattice.spacing[0];
+  }
+  return landscape;
+}
+
+std::vector<std::byte> Scenery::png(const PictureFrame& frame) const {
+  return landscape_png(landscape(frame), camera_, light_, frame.time, middle_depth_);
+}
+
+}  // namespace spindrift
