@@ -131,7 +131,7 @@ Tile<Dim> relaxed_tile(const Vec<Dim>& size, double d, std::uint64_t seed, int s
 /// Whether cover may rest at `place`: on ground that is not too steep, and there nearer than to any other ground.
 template <int Dim>
 bool may_rest(const Terrain<Dim>& terrain, const Vec<Dim>& place, double d) {
-  if (terrain.tangent(place[0])[0] < least_cos_slope) return false;
+  if (terrain.profile()->tangent(place[0])[0] < least_cos_slope) return false;
   const double distance = place[Dim - 1];
   const Foot<Dim> foot = terrain.foot(terrain.position(place.template head<Dim - 1>(), distance));
   if (std::abs(foot.distance - distance) <= 1e-6 * d) return true;
