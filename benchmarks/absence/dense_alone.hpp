@@ -41,7 +41,9 @@ struct DenseAlone {
     SnowKind<2> released{dense.options().spacing, dense.options().density, {4, -3}};
     dense.particles = sample_slab<2>(*walls.terrain, {1, 5, with_cover ? cover_depth : 0, 1.5, {}}, released);
     if (!with_cover) return;
-    const auto ground_at = [&](double x) { return walls.terrain->foot({x, walls.terrain->height(x)}).place[0]; };
+    const auto ground_at = [&](double x) {
+      return walls.terrain->foot({x, walls.terrain->profile()->height(x)}).place[0];
+    };
     CoverLayer layer;
     layer.ground_from = ground_at(0), layer.ground_to = ground_at(40);
     layer.from = std::max(0.0, layer.ground_from), layer.to = layer.ground_to;

@@ -97,20 +97,20 @@ template <int Dim>
 void Entrainment<Dim>::find_patches(const Cover<Dim>& cover, const Columns<Dim>& columns) {
   patches_.clear();
   std::uint32_t n = 0;
-  const auto add = [&](const GroundBin<Dim>& bin) {
+  const auto add = [&](const GroundBin<Dim>& bin, double area) {
     const auto n_slots = static_cast<std::uint32_t>(cover.slots_in(bin).size());
     if (n_slots == 0) return;
-    patches_.push_back({bin, n, n});
+    patches_.push_back({bin, area, n, n});
     n += n_slots;
   };
   if (options_.spontaneous) {
     for_each_index<Dim - 1>(cover.shape, [&](GroundBin<Dim> bin) {
       for (int k = 0; k < Dim - 1; ++k) bin[k] += cover.lower[k];
-      add(bin);
+      add(bin, cover.ground_area(bin));
     });
   } else {
     for (const Column<Dim>& column : columns.columns)
-      if (column.thickness > 0) add(column.bin);
+      if (column.thickness > 0) add(column.bin, column.area);
   }
   candidates_.resize(n);
 }
@@ -120,8 +120,7 @@ void Entrainment<Dim>::find_candidates(Patch& patch, const View& view) {
   const Cover<Dim>& cover = view.cover;
   const Column<Dim>* column = view.columns.find(patch.bin);
   const Surroundings<Dim> around(patch.bin, cover, view.columns);
-  const double area = ground_bin_area<Dim>(cover.bin_size);
-  double mass_above = column == nullptr ? 0 : column->mass_per_area * area;
+  double mass_above = column == nullptr ? 0 : column->mass_per_area * patch.area;
   bool top = true;
   for (const std::uint32_t slot : cover.slots_in(patch.bin)) {
     if (!cover.alive(slot)) continue;
@@ -130,7 +129,7 @@ void Entrainment<Dim>::find_candidates(Patch& patch, const View& view) {
     const bool bare = std::exchange(top, false);
     const Vec<Dim>& normal = cover.foot[slot].normal;
     const double g_normal = -view.gravity.dot(normal), g = view.gravity.norm();
-    double overburden = mass_above / area;
+    double overburden = mass_above / patch.area;
     if (options_.column == OverburdenColumn::vertical) overburden /= std::max(g_normal / g, least_cos_slope);
     mass_above += cover.particles.mass[slot];
 
@@ -160,7 +159,7 @@ void Entrainment<Dim>::run_clocks(const Patch& patch, Cover<Dim>& cover, const E
           exponential(step.seed, RandomStream::entrainment_clock, cover.particles.id[slot]) - cover.hazard[slot];
       if (to_go < least) least = to_go, next = slot;
     }
-    const double rate = options_.rate * ground_bin_area<Dim>(cover.bin_size) / mass;
+    const double rate = options_.rate * patch.area / mass;
     const bool goes = least <= rate * time;
     const double advance = goes ? std::max(least, 0.0) : rate * time;
     for (const std::uint32_t slot : slots) cover.hazard[slot] += advance;
@@ -174,7 +173,7 @@ void Entrainment<Dim>::run_clocks(const Patch& patch, Cover<Dim>& cover, const E
 template <int Dim>
 double Entrainment<Dim>::flux(const Patch& patch, const Cover<Dim>& cover) const {
   if (options_.rule == EntrainmentRule::clock) return options_.rate;
-  return options_.rate * disc<Dim>(cover.spacing) * (patch.end - patch.first) / ground_bin_area<Dim>(cover.bin_size);
+  return options_.rate * disc<Dim>(cover.spacing) * (patch.end - patch.first) / patch.area;
 }
 
 template <int Dim>

@@ -51,7 +51,7 @@ class Entrainment {
   /// Moves failing cover particles out of the cover. A particle fails while gamma_i > gamma_0, Eqs. (14) and (15), and
   /// moving dense snow is within 1.5 d of it (R13). By the clock rule, of these only the exposed ones - no cover within
   /// 1.5 d inside 45 degrees of the normal - and the topmost of each ground bin are candidates, at the rate
-  ///   lambda = Er A / (sum of m over the candidates of the bin),  A = (2 d)^(Dim-1);
+  ///   lambda = Er A / (sum of m over the candidates of the bin),  A the bin's ground, (2 d)^(Dim-1) on a profile;
   /// a particle goes once the integral of lambda dt passes its own unit-exponential number, a function of seed and id.
   /// Within the step lambda rises as candidates go, so that the flux is Er as long as the step leaves a candidate: low
   /// by at most Er A dt / 2 m. (Without the topmost, bins whose pit the neighbours' cover overhangs stand still, and
@@ -81,6 +81,7 @@ class Entrainment {
   /// A ground bin with cover that may fail, and its candidates in candidates_.
   struct Patch {
     GroundBin<Dim> bin{};
+    double area = 0;  ///< A, of its ground [m^(Dim-1)]
     std::uint32_t first = 0, end = 0;
   };
   struct View;

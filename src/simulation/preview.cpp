@@ -11,9 +11,9 @@ namespace spindrift {
 namespace {
 
 void add_ground(PreviewFrame& frame, const Terrain<2>& terrain) {
-  for (const Vec<2>& vertex : terrain.vertices())
+  for (const Vec<2>& vertex : terrain.profile()->vertices())
     if (vertex[0] > frame.world.lower[0] && vertex[0] < frame.world.upper[0]) frame.ground.push_back(vertex);
-  const auto edge = [&](double x) { return Vec<2>(x, terrain.height(x)); };
+  const auto edge = [&](double x) { return Vec<2>(x, terrain.profile()->height(x)); };
   frame.ground.insert(frame.ground.begin(), edge(frame.world.lower[0]));
   frame.ground.push_back(edge(frame.world.upper[0]));
 }

@@ -185,7 +185,7 @@ class Warner {
     int below = 0, above = 0;
     for (int i = 0; i <= n; ++i) {
       const double x = walls.domain.lower[0] + walls.domain.size()[0] * i / n;
-      const double z = walls.terrain->height(x);
+      const double z = walls.terrain->profile()->height(x);
       below += z < walls.domain.lower[up_axis<Dim>];
       above += z > walls.domain.upper[up_axis<Dim>];
     }

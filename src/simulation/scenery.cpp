@@ -136,7 +136,8 @@ void Scenery::fill_ground(const Scene& scene) {
   ground_.shown = {domain_.lower.head<2>() - clear, domain_.upper.head<2>() + clear};
   ground_.height.reserve(count<2>(ground_.shape));
   for_each_index<2>(ground_.shape, [&](const Index<2>& i) {
-    const double z = walls.terrain ? walls.terrain->height(ground_.place(i)[0]) : domain_.lower[2];
+    const Vec<2> place = ground_.place(i);
+    const double z = walls.terrain ? walls.terrain->height({place[0], place[1], 0}) : domain_.lower[2];
     ground_.height.push_back(static_cast<float>(z));
   });
 }

@@ -46,7 +46,7 @@ template <int Dim>
 double ground_at(const Walls<Dim>& walls, double x) {
   Vec<Dim> surface = Vec<Dim>::Zero();
   surface[0] = x;
-  surface[up_axis<Dim>] = walls.terrain->height(x);
+  surface[up_axis<Dim>] = walls.terrain->height(surface);
   return walls.terrain->foot(surface).place[0];
 }
 

@@ -84,9 +84,8 @@ void measure(Column<Dim>& c, const Columns<Dim>& columns, const Particles<Dim>& 
     ++c.end_standing;
   }
   if (c.end_standing == c.first) return;
-  const double area = ground_bin_area<Dim>(columns.bin_size);
-  c.thickness = std::max(volume / area, spacing);
-  c.mass_per_area = mass / area;
+  c.thickness = std::max(volume / c.area, spacing);
+  c.mass_per_area = mass / c.area;
   if (mass > 0) c.velocity = momentum / mass;
 }
 
@@ -123,6 +122,8 @@ void build_columns(Columns<Dim>& columns, const Terrain<Dim>& terrain, const Par
       [&](std::size_t k) {
         Column<Dim>& c = columns.columns[k];
         sort_by_height(c, columns, dense);
+        c.area = ground_bin_area<Dim>(columns.bin_size) *
+                 terrain.area_ratio(ground_bin_centre<Dim>(c.bin, columns.bin_size));
         if (cover != nullptr) c.bed = cover->surface(c.bin);
         measure(c, columns, dense, spacing, support_radius);
       },

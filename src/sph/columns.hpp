@@ -18,6 +18,7 @@ namespace spindrift {
 template <int Dim>
 struct Column {
   GroundBin<Dim> bin{};
+  double area = 0;                       ///< A, of its ground [m^(Dim-1)]
   double bed = 0;                        ///< normal distance of the bed from the ground [m]: the cover's surface, or 0
   double thickness = 0;                  ///< h_flow = sum V / A, at least d [m]; 0: nothing stands on the bed
   double mass_per_area = 0;              ///< sum m / A [kg m^-2]

@@ -21,7 +21,7 @@ void sort_by_cell(Cover<Dim>& cover) {
   reorder(cover.hazard);
 }
 
-/// The plane through the surface over the bins around `bin`, as its slopes along the ground [-].
+/// The plane through the surface over the bins around `bin`, as its slopes over places [-].
 template <int Dim>
 Vec<Dim - 1> surface_slope(const Cover<Dim>& cover, const GroundBin<Dim>& bin) {
   const GroundBin<Dim> first = ground_bin<Dim>(cover.ground_lower, cover.bin_size);
@@ -57,8 +57,15 @@ void find_surface_normals(Cover<Dim>& cover, const GroundBin<Dim>& bin) {
   const Vec<Dim - 1> slope = surface_slope(cover, bin);
   for (const std::uint32_t slot : slots) {
     Vec<Dim> normal = cover.foot[slot].normal;
-    const auto along = tangents<Dim>(normal);
-    for (int k = 0; k < Dim - 1; ++k) normal -= slope[k] * along[k];
+    if (cover
+            .in_plan) {  // the height's gradient along the ground is that over places, less what goes out of the ground
+      Vec<Dim> gradient = Vec<Dim>::Zero();
+      gradient.template head<Dim - 1>() = slope;
+      normal -= gradient - gradient.dot(normal) * normal;
+    } else {
+      const auto along = tangents<Dim>(normal);
+      for (int k = 0; k < Dim - 1; ++k) normal -= slope[k] * along[k];
+    }
     cover.surface_normal[slot] = normal.normalized();
   }
 }
@@ -78,6 +85,16 @@ double Cover<Dim>::surface(const GroundBin<Dim>& bin) const {
   for (const std::uint32_t slot : slots_in(bin))
     if (alive(slot)) return foot[slot].distance + spacing / 2;
   return 0;
+}
+
+template <int Dim>
+double Cover<Dim>::ground_area(const GroundBin<Dim>& bin) const {
+  const double area = ground_bin_area<Dim>(bin_size);
+  const auto slots = slots_in(bin);
+  if (!in_plan || slots.empty()) return area;
+  double ratio = 0;
+  for (const std::uint32_t slot : slots) ratio += 1 / cos_slope<Dim>(foot[slot].normal);
+  return area * ratio / static_cast<double>(slots.size());
 }
 
 template <int Dim>

@@ -21,6 +21,7 @@ struct Cover {
   double density = 0;         ///< rho_a [kg m^-3]
   double thickness = 0;       ///< initial depth, normal to the ground [m]
   double support_radius = 0;  ///< h of the flow above [m]; 0: at most 2 d
+  bool in_plan = false;       ///< places are (x, y) of a height field
 
   Particles<Dim> particles;
   std::vector<Foot<Dim>> foot;  ///< of every slot, as sampled
@@ -48,6 +49,9 @@ struct Cover {
   /// Normal distance of the cover's surface from the ground [m]: of the farthest live particle in `bin`, plus d/2.
   /// 0 where no cover is left.
   double surface(const GroundBin<Dim>& bin) const;
+
+  /// Area of the ground of `bin`, as its slots see it [m^(Dim-1)].
+  double ground_area(const GroundBin<Dim>& bin) const;
 
   std::size_t bytes() const {
     return particles.bytes() + cells.bytes() + spindrift::bytes(foot) + spindrift::bytes(hazard) +

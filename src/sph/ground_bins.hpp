@@ -1,5 +1,5 @@
 #pragma once
-/// Bins of ground: squares of the surface, by arc length and in 3D also y, on which columns of snow stand.
+/// Bins of ground: squares of places, on which columns of snow stand.
 
 #include <cmath>
 
@@ -21,10 +21,18 @@ GroundBin<Dim> ground_bin(const Vec<Dim - 1>& place, double size) {
   return bin;
 }
 
-/// Area of a bin [m^(Dim-1)].
+/// Area of a bin's places [m^(Dim-1)]: that of its ground on a profile; on a height field its ground is 1 / n_z as
+/// much.
 template <int Dim>
 double ground_bin_area(double size) {
   return Dim == 2 ? size : size * size;
+}
+
+template <int Dim>
+Vec<Dim - 1> ground_bin_centre(const GroundBin<Dim>& bin, double size) {
+  Vec<Dim - 1> centre;
+  for (int k = 0; k < Dim - 1; ++k) centre[k] = (bin[k] + 0.5) * size;
+  return centre;
 }
 
 /// Calls f(bin) for `bin` and the bins that touch it.

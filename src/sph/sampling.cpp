@@ -9,72 +9,14 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/random.hpp"
+#include "sph/ground_filling.hpp"
 #include "sph/kd_tree.hpp"
+#include "sph/tile.hpp"
 
 namespace spindrift {
 namespace {
 
-constexpr double least_pair = 0.7;                   // of d: closer pairs are thinned
-constexpr double least_cos_slope = 0.1;              // steeper ground carries no cover
-constexpr double repulsion_radius = 1.1;             // of d: just above the spacing wanted, else the places clump
-constexpr double first_step = 1.2, last_step = 0.2;  // of d: the push of a neighbour at no distance
-
-/// Neighbours of a place: number and squared distance [m^2].
-using Found = std::vector<std::pair<std::uint32_t, double>>;
-
-/// Calls f(i, found) for the first n of `positions`, with all others within `radius` [m].
-template <int Dim, class F>
-void for_each_neighbourhood(std::span<const Vec<Dim>> positions, std::size_t n, double radius, F&& f) {
-  const Points<Dim> points{positions};
-  const Tree<Dim> tree(Dim, points, nanoflann::KDTreeSingleIndexAdaptorParams(tree_leaf));
-  const nanoflann::SearchParams unsorted(0, 0, false);
-  auto body = [&](std::size_t begin, std::size_t end) {
-    Found found;
-    for (std::size_t i = begin; i < end; ++i) {
-      tree.radiusSearch(positions[i].data(), radius * radius, found, unsorted);
-      std::erase_if(found, [i](const auto& other) { return other.first == i; });
-      f(i, found);
-    }
-  };
-  parallel_blocks(n, 256, body);
-}
-
-double nearest(const Found& found) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [j, squared] : found) least = std::min(least, squared);
-  return std::sqrt(least);
-}
-
-/// A periodic block of places (arc length[, y], normal distance) [m].
-template <int Dim>
-struct Tile {
-  Vec<Dim> size;
-  std::vector<Vec<Dim>> places;
-};
-
-/// Appends the periodic images of the first n places that lie within `reach` of the tile, then, as walls that repel,
-/// the mirror images of all in ground and surface. Returns the number of places without mirror images.
-template <int Dim>
-std::size_t add_images(std::vector<Vec<Dim>>& places, const Vec<Dim>& size, double reach) {
-  for (int axis = 0; axis < Dim - 1; ++axis) {
-    const std::size_t n = places.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (places[i][axis] < reach) places.push_back(places[i] + size[axis] * Vec<Dim>::Unit(axis));
-      if (places[i][axis] > size[axis] - reach) places.push_back(places[i] - size[axis] * Vec<Dim>::Unit(axis));
-    }
-  }
-  constexpr int normal = Dim - 1;
-  const std::size_t n = places.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    Vec<Dim> mirrored = places[i];
-    mirrored[normal] = -places[i][normal];
-    if (places[i][normal] < reach) places.push_back(mirrored);
-    mirrored[normal] = 2 * size[normal] - places[i][normal];
-    if (places[i][normal] > size[normal] - reach) places.push_back(mirrored);
-  }
-  return n;
-}
+constexpr double least_pair = 0.7;  // of d: closer pairs are thinned
 
 /// Which particles stay if each goes that has an earlier one that stays among its close ones.
 std::vector<std::uint8_t> thinned(const std::vector<std::vector<std::uint32_t>>& close) {
@@ -84,54 +26,10 @@ std::vector<std::uint8_t> thinned(const std::vector<std::vector<std::uint32_t>>&
   return kept;
 }
 
-template <int Dim>
-Tile<Dim> relaxed_tile(const Vec<Dim>& size, double d, std::uint64_t seed, int steps) {
-  constexpr int normal = Dim - 1;
-  Tile<Dim> tile{size, {}};
-  const auto n = static_cast<std::size_t>(std::llround(size.prod() / std::pow(d, Dim)));
-  const double margin = std::min(d, size[normal]) / 2;
-  const double reach = repulsion_radius * d;
-  for (std::size_t slot = 0; slot < n; ++slot) {
-    Vec<Dim> place;
-    for (int axis = 0; axis < Dim; ++axis)
-      place[axis] = size[axis] * uniform(seed, RandomStream::cover_sampling, slot, static_cast<std::uint32_t>(axis));
-    place[normal] = margin + place[normal] / size[normal] * (size[normal] - 2 * margin);
-    tile.places.push_back(place);
-  }
-
-  std::vector<Vec<Dim>> push(n), all;
-  std::vector<double> distance(n);
-  for (int step = 0; step < steps; ++step) {
-    all = tile.places;
-    const std::size_t n_real = add_images<Dim>(all, size, reach);
-    for_each_neighbourhood<Dim>(all, n, reach, [&](std::size_t i, Found& found) {
-      push[i].setZero();
-      for (const auto& [j, squared] : found) {
-        const double r = std::sqrt(squared);
-        if (r > 0) push[i] += (1 / r - 1 / reach) * (all[i] - all[j]);
-      }
-      std::erase_if(found, [n_real](const auto& other) { return other.first >= n_real; });
-      distance[i] = std::min(nearest(found), reach);
-    });
-    if (parallel_sum(n, 0.0, [&](std::size_t i) { return distance[i]; }) >= static_cast<double>(n) * d) break;
-    const double stride = d * std::lerp(first_step, last_step, static_cast<double>(step) / steps);
-    for (std::size_t i = 0; i < n; ++i) {
-      Vec<Dim>& place = tile.places[i];
-      place += stride * push[i] / std::max(1.0, push[i].norm());
-      for (int axis = 0; axis < normal; ++axis) place[axis] -= size[axis] * std::floor(place[axis] / size[axis]);
-      place[normal] = std::clamp(place[normal], margin, size[normal] - margin);
-    }
-  }
-  std::sort(tile.places.begin(), tile.places.end(), [](const Vec<Dim>& a, const Vec<Dim>& b) {
-    return std::lexicographical_compare(a.data(), a.data() + Dim, b.data(), b.data() + Dim);
-  });
-  return tile;
-}
-
 /// Whether cover may rest at `place`: on ground that is not too steep, and there nearer than to any other ground.
 template <int Dim>
 bool may_rest(const Terrain<Dim>& terrain, const Vec<Dim>& place, double d) {
-  if (terrain.tangent(place[0])[0] < least_cos_slope) return false;
+  if (terrain.profile()->tangent(place[0])[0] < least_cos_slope) return false;
   const double distance = place[Dim - 1];
   const Foot<Dim> foot = terrain.foot(terrain.position(place.template head<Dim - 1>(), distance));
   if (std::abs(foot.distance - distance) <= 1e-6 * d) return true;
@@ -160,6 +58,83 @@ void check_kind(const SnowKind<Dim>& kind) {
   check(std::isfinite(kind.density) && kind.density > 0, "the density must be positive");
 }
 
+/// Whether an obstacle lies within d/2 of x.
+template <int Dim>
+bool blocked(std::span<const Box<Dim>> obstacles, const Vec<Dim>& x, double d) {
+  return std::any_of(obstacles.begin(), obstacles.end(),
+                     [&](const Box<Dim>& obstacle) { return surface_of<Dim>(obstacle, x).distance < 0.5 * d; });
+}
+
+template <int Dim>
+void lay_on_profile(Cover<Dim>& cover, const Terrain<Dim>& terrain, const CoverLayer& layer, const SnowKind<Dim>& kind,
+                    std::span<const Box<Dim>> obstacles) {
+  const double d = kind.spacing;
+  constexpr double period = tile_period<Dim>;
+  Vec<Dim> size = Vec<Dim>::Constant(period * d);
+  size[Dim - 1] = layer.depth;
+  const Tile<Dim> tile = relaxed_tile<Dim>(TileKind::layer, size, d, layer.seed, layer.relaxation_steps);
+  const auto last_tile = [&](double length) { return static_cast<int>(std::ceil(length / (period * d))); };
+  const int first = static_cast<int>(std::floor(layer.from / (period * d)));
+  const int n_across = Dim == 2 ? 1 : last_tile(layer.y.to - layer.y.from);
+
+  std::vector<Vec<Dim>> places;
+  for (int along = first; along < last_tile(layer.to); ++along)
+    for (int across = 0; across < n_across; ++across)
+      for (Vec<Dim> place : tile.places) {
+        place[0] += along * period * d;
+        if (place[0] < layer.from || place[0] >= layer.to) continue;
+        if constexpr (Dim == 3) {
+          place[1] += layer.y.from + across * period * d;
+          if (place[1] > layer.y.to) continue;
+        }
+        places.push_back(place);
+      }
+  std::vector<std::uint8_t> kept(places.size());
+  parallel_for(places.size(), [&](std::size_t i) { kept[i] = may_rest(terrain, places[i], d); });
+
+  std::vector<Vec<Dim>> positions;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (kept[i] == 0) continue;
+    const Vec<Dim> x = terrain.position(places[i].template head<Dim - 1>(), places[i][Dim - 1]);
+    if (blocked<Dim>(obstacles, x, d)) continue;
+    places[n++] = places[i];
+    positions.push_back(x);
+  }
+  std::vector<std::vector<std::uint32_t>> close(n);
+  for_each_neighbourhood<Dim>(positions, n, least_pair * d, [&](std::size_t i, const Found& found) {
+    for (const auto& [j, squared] : found) close[i].push_back(j);
+  });
+  kept = thinned(close);
+
+  for (std::size_t i = 0; i < n; ++i) {
+    if (kept[i] == 0) continue;
+    append(cover.particles, positions[i], kind);
+    Foot<Dim> foot = terrain.foot(positions[i]);
+    foot.distance = places[i][Dim - 1];
+    foot.place = places[i].template head<Dim - 1>();
+    cover.foot.push_back(foot);
+  }
+}
+
+template <int Dim>
+void lay_on_field(Cover<Dim>& cover, const HeightField& field, const CoverLayer& layer, const SnowKind<Dim>& kind,
+                  std::span<const Box<Dim>> obstacles) {
+  if constexpr (Dim == 3) {
+    cover.in_plan = true;
+    const GroundLayer all{.extent = {{layer.from, layer.y.from}, {layer.to, layer.y.to}},
+                          .thickness = layer.depth,
+                          .spacing = kind.spacing,
+                          .seed = layer.seed,
+                          .relaxation_steps = layer.relaxation_steps};
+    for (const FilledPlace& place : fill_ground(field, all, [](const Vec<2>&) { return true; })) {
+      if (blocked<Dim>(obstacles, place.position, kind.spacing)) continue;
+      append(cover.particles, place.position, kind);
+      cover.foot.push_back(place.foot);
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -185,54 +160,10 @@ Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, co
     return cover;
   }
 
-  constexpr double period = Dim == 2 ? 128 : 24;  // of d
-  Vec<Dim> size = Vec<Dim>::Constant(period * d);
-  size[Dim - 1] = layer.depth;
-  const Tile<Dim> tile = relaxed_tile<Dim>(size, d, layer.seed, layer.relaxation_steps);
-  const auto last_tile = [&](double length) { return static_cast<int>(std::ceil(length / (period * d))); };
-  const int first = static_cast<int>(std::floor(layer.from / (period * d)));
-  const int n_across = Dim == 2 ? 1 : last_tile(layer.y.to - layer.y.from);
-
-  std::vector<Vec<Dim>> places;
-  for (int along = first; along < last_tile(layer.to); ++along)
-    for (int across = 0; across < n_across; ++across)
-      for (Vec<Dim> place : tile.places) {
-        place[0] += along * period * d;
-        if (place[0] < layer.from || place[0] >= layer.to) continue;
-        if constexpr (Dim == 3) {
-          place[1] += layer.y.from + across * period * d;
-          if (place[1] > layer.y.to) continue;
-        }
-        places.push_back(place);
-      }
-  std::vector<std::uint8_t> kept(places.size());
-  parallel_for(places.size(), [&](std::size_t i) { kept[i] = may_rest(terrain, places[i], d); });
-
-  std::vector<Vec<Dim>> positions;
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (kept[i] == 0) continue;
-    const Vec<Dim> x = terrain.position(places[i].template head<Dim - 1>(), places[i][Dim - 1]);
-    const bool blocked = std::any_of(obstacles.begin(), obstacles.end(), [&](const Box<Dim>& obstacle) {
-      return surface_of<Dim>(obstacle, x).distance < 0.5 * d;
-    });
-    if (blocked) continue;
-    places[n++] = places[i];
-    positions.push_back(x);
-  }
-  std::vector<std::vector<std::uint32_t>> close(n);
-  for_each_neighbourhood<Dim>(positions, n, least_pair * d, [&](std::size_t i, const Found& found) {
-    for (const auto& [j, squared] : found) close[i].push_back(j);
-  });
-  kept = thinned(close);
-
-  for (std::size_t i = 0; i < n; ++i) {
-    if (kept[i] == 0) continue;
-    append(cover.particles, positions[i], kind);
-    Foot<Dim> foot = terrain.foot(positions[i]);
-    foot.distance = places[i][Dim - 1];
-    foot.place = places[i].template head<Dim - 1>();
-    cover.foot.push_back(foot);
+  if (const HeightField* field = terrain.height_field()) {
+    lay_on_field(cover, *field, layer, kind, obstacles);
+  } else {
+    lay_on_profile(cover, terrain, layer, kind, obstacles);
   }
   cover.hazard.assign(cover.particles.size(), 0);
   index_cover(cover);

@@ -28,8 +28,8 @@ struct SnowKind {
 };
 
 struct CoverLayer {
-  double from = 0, to = 0;  ///< arc length along the ground [m]
-  /// Arc length where the ground itself begins and ends [m]; an end of the cover that is not the ground's is a rim.
+  double from = 0, to = 0;  ///< arc length along the ground, on a height field x [m]
+  /// The same, where the ground itself begins and ends [m]; an end of the cover that is not the ground's is a rim.
   double ground_from = -std::numeric_limits<double>::infinity();
   double ground_to = std::numeric_limits<double>::infinity();
   Breadth y{};           ///< in 3D
@@ -46,6 +46,8 @@ struct CoverLayer {
 ///   - Where the ground is concave, a place belongs to the piece of ground that is nearest; of two particles closer
 ///     than 0.7 d the later is left out (R22). Ground over 84 degrees (a cliff's face) carries no cover.
 ///   - Nothing lies within d/2 of `obstacles`.
+/// On a height field, where from, to and y are those of places (x, y), the layer is filled from a volume tile instead
+/// (ground_filling.hpp); its mass per area of ground is density times depth, to 1 % on the whole.
 /// Returns at-rest particles, entrained_at = -1, ids from kind.first_id up. Empty for depth 0 or to <= from.
 /// Throws Error(bad_input): spacing not positive, a number that is not finite.
 /// Source: paper Sec. 4.5.  Departure: R22.

@@ -1,65 +1,57 @@
 #pragma once
-/// The ground: a profile in the x-z plane, in 3D extruded along y. Signed distance, normal and slope angle.
+/// The ground: a profile in the x-z plane, in 3D extruded along y, or in 3D a height field.
 
-#include <array>
 #include <limits>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include "core/vec.hpp"
+#include "terrain/foot.hpp"
+#include "terrain/height_field.hpp"
+#include "terrain/profile.hpp"
 
 namespace spindrift {
 
-/// The nearest point of the ground's surface, as seen from a position.
-template <int Dim>
-struct Foot {
-  double distance = 0;                        ///< signed distance [m], positive in the air
-  Vec<Dim> normal = up<Dim>();                ///< unit normal out of the ground
-  Vec<Dim - 1> place = Vec<Dim - 1>::Zero();  ///< arc length along the profile [m], in 3D also y [m]
-};
-
-/// A polyline from left to right, ground below it. x never decreases; a vertical piece is a cliff's face. The first and
-/// the last piece go on to infinity.
+/// Places are arc lengths along the profile, in 3D also y; on a height field they are (x, y) [m].
 template <int Dim>
 class Terrain {
  public:
-  /// vertices: at least two, (x, z) [m].  Throws Error(bad_input): fewer than two, x decreasing, coincident neighbours,
-  /// a value that is not finite, a vertical end piece.
-  explicit Terrain(std::vector<Vec<2>> vertices);
+  explicit Terrain(Profile profile) : shape_(std::move(profile)) {}
+  /// vertices: of a profile.  Throws as Profile does.
+  explicit Terrain(std::vector<Vec<2>> vertices) : shape_(Profile(std::move(vertices))) {}
+  explicit Terrain(HeightField field) requires(Dim == 3) : shape_(std::move(field)) {}
 
   /// The nearest point of the surface; where it is farther than `reach` [m] only the distance's sign is right, and it
-  /// is `reach` or more. Cost: the pieces within min(reach, height over the surface) aside of x.
+  /// is `reach` or more.
   Foot<Dim> foot(const Vec<Dim>& x, double reach = std::numeric_limits<double>::infinity()) const;
 
-  /// The position at arc length (and y) `place` and normal distance `distance` from the surface: the inverse of foot()
-  /// where the surface is smooth.
+  /// The position at `place` and normal distance `distance` from the surface: the inverse of foot() where the surface
+  /// is smooth.
   Vec<Dim> position(const Vec<Dim - 1>& place, double distance) const;
 
-  /// Height z of the surface over x [m]; at a cliff's face the upper edge's.
-  double height(double x) const;
+  /// Height z of the surface over or under x [m]; at a cliff's face the upper edge's.
+  double height(const Vec<Dim>& x) const;
 
-  /// Unit tangent of the profile, pointing along increasing arc length.
-  Vec<2> tangent(double arc_length) const;
+  /// Whether x is certainly `reach` [m] or more above the ground, where that is cheap to tell: on a height field.
+  bool clears(const Vec<Dim>& x, double reach) const;
 
-  double length() const { return arc_.back(); }  ///< arc length of the whole polyline [m]
-  const std::vector<Vec<2>>& vertices() const { return vertices_; }
+  /// Area of ground over area of places: 1 on a profile, 1 / n_z on a height field.
+  double area_ratio(const Vec<Dim - 1>& place) const;
+
+  /// Null where the ground is of the other kind; in 2D it is a profile.
+  const Profile* profile() const { return std::get_if<Profile>(&shape_); }
+  const HeightField* height_field() const {
+    if constexpr (Dim == 2) {
+      return nullptr;
+    } else {
+      return std::get_if<HeightField>(&shape_);
+    }
+  }
   std::size_t bytes() const;
 
  private:
-  std::size_t first_piece_reaching(double x) const;  ///< the first whose right end is not left of x
-  std::size_t piece_at(double arc_length) const;
-  Vec<2> piece_tangent(std::size_t piece) const;
-  Vec<2> piece_normal(std::size_t piece) const;
-
-  std::vector<Vec<2>> vertices_;
-  std::vector<double> arc_;               ///< arc length at each vertex [m]
-  double table_x0_ = 0, table_step_ = 1;  ///< a bin of the table is [x0 + b step, x0 + (b + 1) step)
-  std::vector<std::uint32_t> table_;      ///< first piece that reaches into each bin
+  std::conditional_t<Dim == 2, std::variant<Profile>, std::variant<Profile, HeightField>> shape_;
 };
-
-/// cos of the angle between a normal and the vertical.
-template <int Dim>
-double cos_slope(const Vec<Dim>& normal) {
-  return normal[up_axis<Dim>];
-}
 
 }  // namespace spindrift

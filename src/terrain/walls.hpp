@@ -23,7 +23,7 @@ struct Walls {
   /// Calls f(distance, normal) for the terrain, for every obstacle and for every closed side nearer than `reach` [m].
   template <class F>
   void for_each_near(const Vec<Dim>& x, double reach, F&& f) const {
-    if (terrain) {
+    if (terrain && !terrain->clears(x, reach)) {
       const Foot<Dim> foot = terrain->foot(x);
       if (foot.distance < reach) f(foot.distance, foot.normal);
     }

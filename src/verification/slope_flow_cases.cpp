@@ -81,7 +81,7 @@ Motion mean_motion(const Simulation<2>& simulation, F&& chosen) {
     if (!chosen(i)) continue;
     const double place = ground.foot(p.position[i]).place[0];
     motion.way += place;
-    motion.speed += p.velocity[i].dot(ground.tangent(place));
+    motion.speed += p.velocity[i].dot(ground.profile()->tangent(place));
     ++n;
   }
   return {motion.way / n, motion.speed / n};

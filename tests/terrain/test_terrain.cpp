@@ -38,7 +38,7 @@ TEMPLATE_TEST_CASE_SIG("Foot on an inclined line", "[terrain]", ((int Dim), Dim)
   CHECK(foot.place[0] == Approx(5));
   CHECK(line.foot(at<Dim>(-0.6, -0.8)).distance == Approx(-1));
   CHECK(line.foot(at<Dim>(40.6, -29.2)).distance == Approx(1));  // the last piece goes on for ever
-  CHECK(line.height(8) == Approx(-6));
+  CHECK(line.profile()->height(8) == Approx(-6));
   CHECK((line.position(foot.place, 1) - at<Dim>(4.6, -2.2)).norm() < 1e-12);
 }
 
@@ -48,7 +48,7 @@ TEMPLATE_TEST_CASE_SIG("Foot against brute force over a bumpy profile", "[terrai
   const auto vertices = slope_profile(slope, 150, 0.5);
   const Terrain<Dim> terrain(vertices);
   for (int i = 0; i < 400; ++i) {
-    const double x = -5 + 0.4 * i, z = terrain.height(x) + 6 * std::sin(1.7 * i);
+    const double x = -5 + 0.4 * i, z = terrain.profile()->height(x) + 6 * std::sin(1.7 * i);
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
       const Vec<2> a = vertices[k], edge = vertices[k + 1] - a;
@@ -59,7 +59,7 @@ TEMPLATE_TEST_CASE_SIG("Foot against brute force over a bumpy profile", "[terrai
     }
     const Foot<Dim> foot = terrain.foot(at<Dim>(x, z));
     CHECK(std::abs(foot.distance) == Approx(nearest).margin(1e-12));
-    CHECK((foot.distance >= 0) == (z >= terrain.height(x)));
+    CHECK((foot.distance >= 0) == (z >= terrain.profile()->height(x)));
     CHECK(foot.normal.norm() == Approx(1));
     const Foot<Dim> near = terrain.foot(at<Dim>(x, z), 1.5);
     CHECK(near.distance == (nearest < 1.5 ? foot.distance : std::copysign(1.5, foot.distance)));
@@ -76,8 +76,8 @@ TEST_CASE("A cliff's face has a level normal and keeps its edges", "[terrain]") 
   const Foot<2> edge = cliff.foot({5.3, 10.4});
   CHECK(edge.distance == Approx(0.5));
   CHECK((edge.normal - Vec<2>(0.6, 0.8)).norm() < 1e-12);
-  CHECK(cliff.height(5) == 10);
-  CHECK(cliff.height(5.001) == 0);
+  CHECK(cliff.profile()->height(5) == 10);
+  CHECK(cliff.profile()->height(5.001) == 0);
 }
 
 TEST_CASE("Profiles that make no ground are refused", "[terrain]") {
@@ -95,13 +95,14 @@ TEST_CASE("A slope keeps its drop, its angles and its arc", "[terrain]") {
   slope.runout_angle = 5 * std::numbers::pi / 180;
   slope.drop = 45;
   const Terrain<2> terrain(slope_profile(slope, 200, 0.25));
-  CHECK(terrain.tangent(1)[1] / terrain.tangent(1)[0] == Approx(-std::tan(slope.angle)));
-  CHECK(terrain.tangent(terrain.length())[1] == Approx(-std::sin(slope.runout_angle)));
+  CHECK(terrain.profile()->tangent(1)[1] / terrain.profile()->tangent(1)[0] == Approx(-std::tan(slope.angle)));
+  CHECK(terrain.profile()->tangent(terrain.profile()->length())[1] == Approx(-std::sin(slope.runout_angle)));
   const double foot_x = 3 + 45 / std::tan(slope.angle);
-  CHECK(terrain.height(190) == Approx(60 - 45 - (190 - foot_x) * std::tan(slope.runout_angle)));
+  CHECK(terrain.profile()->height(190) == Approx(60 - 45 - (190 - foot_x) * std::tan(slope.runout_angle)));
   double steepest_change = 0;
-  for (double s = 0.5; s < terrain.length(); s += 0.25)
-    steepest_change = std::max(steepest_change, (terrain.tangent(s) - terrain.tangent(s - 0.25)).norm());
+  for (double s = 0.5; s < terrain.profile()->length(); s += 0.25)
+    steepest_change =
+        std::max(steepest_change, (terrain.profile()->tangent(s) - terrain.profile()->tangent(s - 0.25)).norm());
   CHECK(steepest_change < 0.25 / slope.transition_radius * 2.1);
 }
 
