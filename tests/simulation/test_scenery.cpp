@@ -19,7 +19,7 @@ Scene slice(const std::vector<std::string>& settings = {}) {
 
 Vec<3> on_ground(const Scene& scene, double x, double y) {
   const Walls<3> walls = make_walls<3>(scene);
-  return {x, y, walls.terrain->height(x)};
+  return {x, y, walls.terrain->height({x, y, 0})};
 }
 
 }  // namespace
