@@ -45,13 +45,15 @@ std::vector<std::byte> as_points(PointCloud cloud, const StoredArray& radius, co
 
 std::vector<std::byte> exported_particles(const StoredFrame& frame, const ExportOptions& options,
                                           const fs::path& file) {
-  values_of<float>(frame, "Points", file);
   const auto& mass = values_of<float>(frame, "mass", file);
   const auto& density = values_of<float>(frame, "density", file);
   std::vector<float> radius(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i)
     radius[i] = 0.5f * std::pow(mass[i] / density[i], 1.0f / static_cast<float>(options.dim));
   const auto positions = std::ranges::find(frame.arrays, "Points", &StoredArray::name);
+  const bool far_from_zero =
+      positions != frame.arrays.end() && std::holds_alternative<std::vector<double>>(positions->values);
+  if (!far_from_zero) values_of<float>(frame, "Points", file);
   return as_points(cloud_of(frame.arrays, positions->view(), frame.attributes), {"radius", 1, std::move(radius)},
                    options, file, frame);
 }

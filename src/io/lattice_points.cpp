@@ -1,20 +1,32 @@
 #include "io/lattice_points.hpp"
 
-namespace spindrift {
+#include <algorithm>
+#include <cmath>
 
-StoredCloud lattice_points(const StoredFrame& image, std::span<const std::size_t> points) {
-  const Lattice& lattice = *image.lattice;
-  std::vector<float> positions;
-  positions.reserve(3 * points.size());
+namespace spindrift {
+namespace {
+
+template <class T>
+StoredArray positions(const Lattice& lattice, std::span<const std::size_t> points) {
+  std::vector<T> places;
+  places.reserve(3 * points.size());
   for (std::size_t rest : points)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t n = static_cast<std::size_t>(lattice.shape[axis]);
-      positions.push_back(
-          static_cast<float>(lattice.origin[axis] + static_cast<double>(rest % n) * lattice.spacing[axis]));
+      places.push_back(static_cast<T>(lattice.origin[axis] + static_cast<double>(rest % n) * lattice.spacing[axis]));
       rest /= n;
     }
+  return {"Points", 3, std::move(places)};
+}
 
-  StoredCloud cloud{{"Points", 3, std::move(positions)}, {}};
+}  // namespace
+
+StoredCloud lattice_points(const StoredFrame& image, std::span<const std::size_t> points) {
+  constexpr double far_from_zero = 20e3;  // [m]: beyond, single precision has no digits left
+  const auto is_far = [](double x) { return std::abs(x) > far_from_zero; };
+  StoredCloud cloud{std::ranges::any_of(image.lattice->origin, is_far) ? positions<double>(*image.lattice, points)
+                                                                       : positions<float>(*image.lattice, points),
+                    {}};
   for (const StoredArray& array : image.arrays) {
     const std::size_t components = static_cast<std::size_t>(array.components);
     std::visit(

@@ -44,15 +44,23 @@ StoredArray array_of(const Simulation<Dim>& simulation, const std::vector<Member
   return {name, 1, std::move(values)};
 }
 
-template <int Dim, class F>
+template <class T, int Dim, class F>
 StoredArray vectors_of(const Simulation<Dim>& simulation, const std::vector<Member>& members, const char* name, F&& f) {
-  std::vector<float> values;
+  std::vector<T> values;
   values.reserve(members.size() * Dim);
   for_each_member(simulation, members, [&](const Member& m, const Particles<Dim>& p) {
     const Vec<Dim> v = f(m, p);
-    for (int k = 0; k < Dim; ++k) values.push_back(static_cast<float>(v[k]));
+    for (int k = 0; k < Dim; ++k) values.push_back(static_cast<T>(v[k]));
   });
   return {name, Dim, std::move(values)};
+}
+
+/// Of the solver's coordinates in those of the scene file [m].
+template <int Dim>
+Vec<Dim> origin_of(const Simulation<Dim>& simulation) {
+  Vec<Dim> origin = Vec<Dim>::Zero();
+  if constexpr (Dim == 3) origin = Eigen::Map<const Vec<3>>(simulation.scene().origin.data());
+  return origin;
 }
 
 /// units: of the arrays that have one, by their names.
@@ -96,10 +104,13 @@ ParticleFrame particle_frame(const Simulation<Dim>& s) {
                                        {"pressure", "Pa"},
                                        {"mass", Dim == 2 ? "kg/m" : "kg"},
                                        {"entrained_at", "s"}});
-  frame.positions =
-      vectors_of(s, members, "Points", [](const Member& m, const auto& p) { return p.position[m.index]; });
+  const auto place = [](const Member& m, const auto& p) { return p.position[m.index]; };
+  frame.positions = vectors_of<float>(s, members, "Points", place);
+  if (const Vec<Dim> origin = origin_of(s); !origin.isZero())  // far from zero single precision has no digits left
+    frame.positions = vectors_of<double>(
+        s, members, "Points", [&](const Member& m, const auto& p) -> Vec<Dim> { return origin + place(m, p); });
   frame.arrays.push_back(
-      vectors_of(s, members, "velocity", [](const Member& m, const auto& p) { return p.velocity[m.index]; }));
+      vectors_of<float>(s, members, "velocity", [](const Member& m, const auto& p) { return p.velocity[m.index]; }));
   frame.arrays.push_back(array_of<float>(
       s, members, "density", [](const Member& m, const auto& p) { return p.mass[m.index] / p.volume[m.index]; }));
   frame.arrays.push_back(
@@ -135,7 +146,7 @@ SmokeFrame smoke_frame(const Simulation<Dim>& s) {
     ++cell;
   });
   SmokeFrame frame;
-  const Vec<Dim> first = grid.cell_centre(Index<Dim>{});
+  const Vec<Dim> first = grid.cell_centre(Index<Dim>{}) + origin_of(s);
   frame.lattice.shape = {grid.cells[0], Dim == 3 ? grid.cells[1] : 1, grid.cells[Dim - 1]};
   frame.lattice.origin = {first[0], Dim == 3 ? first[1] : 0, first[Dim - 1]};
   frame.lattice.spacing = {grid.dx, Dim == 3 ? grid.dx : 1, grid.dx};

@@ -13,18 +13,30 @@ struct MassAt {
 };
 
 template <int Dim>
-double along_ground(const Simulation<Dim>& simulation, const Vec<Dim>& x) {
-  return simulation.walls().terrain ? simulation.walls().terrain->foot(x).place[0] : x[0];
+Vec<Dim> middle_of_mass(const Particles<Dim>& p) {
+  Vec<Dim> moment = Vec<Dim>::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    moment += p.mass[i] * p.position[i];
+    mass += p.mass[i];
+  }
+  return moment / mass;
 }
 
-/// Snow of the dense flow by its place along the ground, ascending.
-template <int Dim>
-std::vector<MassAt> masses_along(const Simulation<Dim>& simulation) {
+/// Area of the ground, in bins of two spacings, under the particles that `counts` accepts [m^2].
+template <int Dim, class F>
+double ground_under(const Simulation<Dim>& simulation, F&& counts) {
   const Particles<Dim>& p = simulation.dense()->particles;
-  std::vector<MassAt> masses(p.size());
-  for (std::size_t i = 0; i < p.size(); ++i) masses[i] = {along_ground(simulation, p.position[i]), p.mass[i]};
-  std::sort(masses.begin(), masses.end(), [](const MassAt& a, const MassAt& b) { return a.along < b.along; });
-  return masses;
+  const double size = 2 * simulation.dense()->options().spacing;
+  std::vector<GroundBin<Dim>> bins;
+  for (const Vec<Dim>& x : p.position)
+    if (counts(x)) bins.push_back(ground_bin<Dim>(x.template head<Dim - 1>(), size));
+  std::sort(bins.begin(), bins.end());
+  bins.erase(std::unique(bins.begin(), bins.end()), bins.end());
+  double area = 0;
+  for (const GroundBin<Dim>& bin : bins)
+    area += ground_bin_area<Dim>(size) * simulation.walls().terrain->area_ratio(ground_bin_centre<Dim>(bin, size));
+  return area;
 }
 
 double percentile(const std::vector<MassAt>& masses, double share) {
@@ -54,13 +66,25 @@ void for_each_cloud_top(const Suspension<Dim>& suspension, F&& f) {
 }  // namespace
 
 template <int Dim>
+double Instruments<Dim>::way(const Walls<Dim>& walls, const Vec<Dim>& x) const {
+  if (!walls.terrain) return x[0];
+  if (middle_) return (x - *middle_).norm();
+  return walls.terrain->foot(x).place[0];
+}
+
+template <int Dim>
 void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
   if (simulation.time() < next_) return;
   next_ = (std::floor(simulation.time() / sample_interval) + 1) * sample_interval;
   const auto& terrain = simulation.walls().terrain;
 
   if (simulation.dense() && !simulation.dense()->particles.empty()) {
-    const std::vector<MassAt> masses = masses_along(simulation);
+    const Particles<Dim>& p = simulation.dense()->particles;
+    const bool on_field = terrain && terrain->height_field();
+    if (on_field && !middle_) middle_ = middle_of_mass(p);
+    std::vector<MassAt> masses(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) masses[i] = {way(simulation.walls(), p.position[i]), p.mass[i]};
+    std::sort(masses.begin(), masses.end(), [](const MassAt& a, const MassAt& b) { return a.along < b.along; });
     front = percentile(masses, 0.99);
     samples_.push_back({simulation.time(), front});
     while (samples_.size() > 2 && simulation.time() - samples_[1].time >= speed_window) samples_.pop_front();
@@ -70,10 +94,14 @@ void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
       front_speed_max = std::max(front_speed_max, front_speed);
     }
     double head_mass = 0;
+    const auto in_head = [&](double along) { return along > front - head_length && along <= front; };
     for (const MassAt& m : masses)
-      if (m.along > front - head_length && m.along <= front) head_mass += m.mass;
+      if (in_head(m.along)) head_mass += m.mass;
     const double width = Dim == 3 ? simulation.walls().domain.size()[1] : 1;
-    head_depth = head_mass / simulation.dense()->options().density / (head_length * width);
+    const double area =
+        on_field ? ground_under(simulation, [&](const Vec<Dim>& x) { return in_head(way(simulation.walls(), x)); })
+                 : head_length * width;
+    head_depth = head_mass / simulation.dense()->options().density / area;
   }
 
   if (simulation.suspension()) {
@@ -85,7 +113,8 @@ void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
       }
       const Foot<Dim> foot = terrain->foot(x);
       cloud_height = std::max(cloud_height, foot.distance);
-      if (std::abs(foot.place[0] - front) < head_length) head_cloud = std::max(head_cloud, foot.distance);
+      const double along = middle_ ? (x - foot.distance * foot.normal - *middle_).norm() : foot.place[0];
+      if (std::abs(along - front) < head_length) head_cloud = std::max(head_cloud, foot.distance);
     });
     cloud_height_max = std::max(cloud_height_max, cloud_height);
   }

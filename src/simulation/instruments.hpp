@@ -3,6 +3,7 @@
 /// simulated times, so that the numbers do not depend on the output.
 
 #include <deque>
+#include <optional>
 
 #include "simulation/simulation.hpp"
 
@@ -16,12 +17,15 @@ struct Instruments {
   static constexpr double sample_interval = 0.1;  ///< [s]
   static constexpr double speed_window = 0.5;     ///< over which the front's speed is taken [s]
 
-  double front = 0;             ///< 99th mass percentile of the dense flow along the ground (without ground: x) [m]
+  /// 99th mass percentile of the dense flow's way [m]: along the ground's profile; on a height field straight from the
+  /// middle of the snow as it was first seen; without ground x.
+  double front = 0;
   double front_speed = 0;       ///< over the last window [m s^-1]
   double front_speed_max = 0;   ///< [m s^-1]
   double cloud_height = 0;      ///< largest distance of the cloud from the ground [m]
   double cloud_height_max = 0;  ///< [m]
-  double head_depth = 0;        ///< mean depth of the dense flow within 20 m of the front [m]
+  double head_depth = 0;        ///< mean depth of the dense flow within 20 m of the front [m]; on a height field of the
+                                ///< ground that it lies on
   double head_cloud = 0;        ///< largest cloud height within 20 m of the front [m]
 
   /// Reads the simulation where the next sample is due.
@@ -31,6 +35,9 @@ struct Instruments {
   struct Sample {
     double time, front;
   };
+  double way(const Walls<Dim>& walls, const Vec<Dim>& x) const;
+
+  std::optional<Vec<Dim>> middle_;  ///< of the snow as it was first seen on a height field
   std::deque<Sample> samples_;
   double next_ = 0;
 };

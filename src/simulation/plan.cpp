@@ -8,10 +8,13 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "simulation/ground.hpp"
+#include "simulation/release.hpp"
 
 namespace spindrift {
 namespace {
@@ -52,7 +55,18 @@ double polygon_area(const std::vector<std::array<double, 2>>& corners) {
   return std::abs(twice) / 2;
 }
 
-double release_volume(const ReleaseSection& release, double width, int dim) {
+/// Ground under the area of a release [m^2].
+double released_area(const ReleaseSection& release, const HeightField& ground) {
+  Box<2> extent{{release.points[0][0], release.points[0][1]}, {release.points[0][0], release.points[0][1]}};
+  for (const auto& [x, y] : release.points) {
+    extent.lower = extent.lower.cwiseMin(Vec<2>(x, y));
+    extent.upper = extent.upper.cwiseMax(Vec<2>(x, y));
+  }
+  return ground_area(ground, extent, [&](const Vec<2>& place) { return inside(release.points, place[0], place[1]); });
+}
+
+double release_volume(const ReleaseSection& release, double width, int dim, const HeightField* ground) {
+  if (release.shape == "area") return released_area(release, *ground) * release.thickness;
   if (release.shape == "slab") return release.length * release.thickness * width;
   if (release.shape == "polygon") return polygon_area(release.points) * width;
   if (release.shape == "box") return box_volume(release.lower, release.upper);
@@ -63,9 +77,29 @@ double norm(const std::vector<double>& v) {
   return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
 }
 
+/// Ground under the cover [m^2].
+double covered_area(const Scene& scene, const HeightField& ground) {
+  Box<2> extent = domain_in_plan(scene);
+  const double begin = extent.lower[0];
+  if (scene.cover->to >= 0) extent.upper[0] = std::min(extent.upper[0], begin + scene.cover->to);
+  extent.lower[0] += scene.cover->from;
+  return ground_area(ground, extent, [](const Vec<2>&) { return true; });
+}
+
+/// Between the highest and the lowest ground inside the domain [m].
+double drop_of(const HeightField& ground, const Box<2>& domain) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for_each_index<2>({101, 101}, [&](const Index<2>& i) {
+    const double z = ground.height(domain.lower + domain.size().cwiseProduct(Vec<2>(i[0], i[1])) / 100);
+    low = std::min(low, z), high = std::max(high, z);
+  });
+  return high - low;
+}
+
 /// How far snow falls over what is there [m]: along a slope, friction and resistance leave a quarter of the drop.
-double typical_fall(const Scene& scene) {
+double typical_fall(const Scene& scene, const HeightField* ground) {
   const double bottom = scene.domain.lower.back(), height = scene.domain.upper.back() - bottom;
+  if (ground != nullptr) return std::max(drop_of(*ground, domain_in_plan(scene)), height / 4) / 4;
   if (scene.terrain) return (scene.terrain->shape == "polyline" ? height : scene.terrain->drop) / 4;
   double top = bottom;
   for (const ReleaseSection& release : scene.release) {
@@ -77,8 +111,8 @@ double typical_fall(const Scene& scene) {
 }
 
 /// Speed that sets the time step [m/s].
-double typical_speed(const Scene& scene) {
-  double speed = scene.dense_flow ? std::sqrt(2 * norm(scene.domain.gravity) * typical_fall(scene)) : 0;
+double typical_speed(const Scene& scene, const HeightField* ground) {
+  double speed = scene.dense_flow ? std::sqrt(2 * norm(scene.domain.gravity) * typical_fall(scene, ground)) : 0;
   for (const ReleaseSection& release : scene.release) speed = std::max(speed, norm(release.velocity));
   if (scene.suspension) speed = std::max({speed, norm(scene.suspension->wind), norm(scene.suspension->lid)});
   if (scene.suspension && scene.suspension->initial_flow != "wind")
@@ -87,8 +121,8 @@ double typical_speed(const Scene& scene) {
 }
 
 /// [s]
-double typical_step(const Scene& scene) {
-  const double speed = typical_speed(scene);
+double typical_step(const Scene& scene, const HeightField* ground) {
+  const double speed = typical_speed(scene, ground);
   double dt = scene.scene.max_step;
   if (scene.dense_flow) {
     const double spacing = scene.dense_flow->spacing();
@@ -125,11 +159,16 @@ Plan plan_scene(const Scene& scene) {
   const auto& lower = scene.domain.lower;
   const auto& upper = scene.domain.upper;
   const double width = scene.scene.dim == 3 ? upper[1] - lower[1] : 1;
+  std::optional<Terrain<3>> ground;
+  if (scene.terrain && scene.terrain->is_field()) ground.emplace(make_terrain<3>(scene));
+  const HeightField* const field = ground ? ground->height_field() : nullptr;
   if (scene.dense_flow) {
     const double particle = std::pow(scene.dense_flow->spacing(), scene.scene.dim);
     for (const ReleaseSection& release : scene.release)
-      plan.n_release += std::round(release_volume(release, width, scene.scene.dim) / particle);
-    if (scene.cover && scene.terrain) {
+      plan.n_release += std::round(release_volume(release, width, scene.scene.dim, field) / particle);
+    if (scene.cover && field != nullptr) {
+      plan.n_cover = std::ceil(covered_area(scene, *field) * scene.cover->depth / particle);
+    } else if (scene.cover && scene.terrain) {
       const double end = scene.cover->to >= 0 ? scene.cover->to : ground_length(*scene.terrain, upper[0]);
       plan.n_cover = std::ceil(std::max(0.0, end - scene.cover->from) * scene.cover->depth * width / particle);
     }
@@ -141,12 +180,12 @@ Plan plan_scene(const Scene& scene) {
       plan.n_cells *= plan.grid.back();
     }
   }
-  plan.n_steps = std::ceil(scene.scene.end_time / typical_step(scene));
+  plan.n_steps = std::ceil(scene.scene.end_time / typical_step(scene, field));
   const OutputSection& output = scene.output;
   const double n_particles = plan.n_release + plan.n_cover;
   plan.n_frames = std::floor(scene.scene.end_time * output.frames_per_second) + 1;
-  plan.memory = bytes_of_program + bytes_per_dense * plan.n_release + bytes_per_cover * plan.n_cover +
-                bytes_per_cell * plan.n_cells;
+  plan.memory = bytes_of_program + (ground ? 2.0 * static_cast<double>(ground->bytes()) : 0) +
+                bytes_per_dense * plan.n_release + bytes_per_cover * plan.n_cover + bytes_per_cell * plan.n_cells;
   const bool deep = scene.scene.dim == 3;
   const double picture_bytes = !output.preview ? 0 : deep ? bytes_per_3d_picture : bytes_per_picture;
   const double picture_seconds = output.preview && deep ? seconds_per_3d_picture : 0;

@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "io/commit.hpp"
+#include "io/esri_grid.hpp"
 #include "io/film.hpp"
 #include "io/frame_files.hpp"
 #include "io/system.hpp"
@@ -54,7 +55,12 @@ template <int Dim>
 Recorder<Dim>::Recorder(const Scene& scene, const RunOptions& options)
     : options_(options), output_(scene.output), start_(std::chrono::steady_clock::now()) {
   prepare_folder(options, scene.output);
-  commit(options_.folder / "scene.toml", write_scene(scene));
+  Scene kept = scene;
+  if (scene.elevation) {
+    kept.terrain->file = "terrain.asc";
+    commit(options_.folder / kept.terrain->file, esri_grid_text(*scene.elevation));
+  }
+  commit(options_.folder / "scene.toml", write_scene(kept));
   if (Dim == 3 && scene.output.preview) scenery_.emplace(scene, preview_view(scene));
 }
 

@@ -24,7 +24,7 @@ constexpr Range between(double low, double high) {
 }
 
 constexpr double right_angle = std::numbers::pi / 2;
-constexpr Range position = from(-1e6, 1e6), extent = above(0, 1e5), speed = from(-1000, 1000),
+constexpr Range position = from(-1e7, 1e7), extent = above(0, 1e5), speed = from(-1000, 1000),
                 iterations = from(1, 1e6);
 
 void add_setting(Registry& r) {
@@ -52,25 +52,54 @@ void add_setting(Registry& r) {
       .words<&D::back>("back", side, "side of greatest y (3D)");
 
   using T = TerrainSection;
+  std::vector<std::string_view> shapes = {"slope", "bumps", "cliff", "polyline"};
+  shapes.insert(shapes.end(), field_shapes.begin(), field_shapes.end());
   Rows<&Scene::terrain>(r, "terrain", "the ground")
-      .words<&T::shape>("shape", {"slope", "bumps", "cliff", "polyline"}, "kind of ground", "Figs. 9, 12")
-      .with("shape", {"slope", "bumps", "cliff"})
-      .number<&T::start>("start", "m", position, "upper left end of the slope (x, z)")
-      .number<&T::angle>("angle", "rad", between(0, right_angle), "of the slope, downhill to the right")
+      .words<&T::shape>("shape", shapes, "kind of ground; from plane on in 3D only", "Figs. 9, 12, 13")
+      .with("shape", {"slope", "bumps", "cliff", "plane", "parabola", "bowl", "helix", "ridge", "cliff_band", "valley"})
+      .number<&T::start>("start", "m", position,
+                         "upper left end of the slope (x, z), in 3D in the middle of the domain's breadth")
+      .number<&T::angle>("angle", "rad", below(0, right_angle), "of the slope, downhill to the right")
+      .with("shape", {"slope", "bumps", "cliff", "parabola", "bowl", "helix", "ridge", "cliff_band"})
       .number<&T::drop>("drop", "m", extent, "height of the whole slope from start to its foot")
+      .with("shape", {"slope", "bumps", "cliff", "ridge", "cliff_band"})
       .number<&T::runout_angle>("runout_angle", "rad", between(-right_angle, right_angle),
                                 "of the ground beyond the foot")
-      .number<&T::transition_radius>("transition_radius", "m", from(0, 1e5), "of the arc between slope and run-out")
+      .with("shape", {"slope", "bumps", "cliff", "ridge", "cliff_band", "valley"})
+      .number<&T::transition_radius>("transition_radius", "m", from(0, 1e5),
+                                     "of the arc between slope and run-out, or between a valley's floor and its walls")
       .with("shape", {"bumps"})
       .number<&T::bump_height>("bump_height", "m", from(0, 1000), "crest to trough")
       .number<&T::bump_length>("bump_length", "m", extent, "wavelength along the slope")
-      .with("shape", {"cliff"})
+      .with("shape", {"cliff", "cliff_band"})
       .number<&T::cliff_at>("cliff_at", "m", extent, "drop from start at which the cliff begins")
       .number<&T::cliff_height>("cliff_height", "m", extent, "height of the cliff")
+      .with("shape", {"cliff_band"})
+      .number<&T::cliff_angle>("cliff_angle", "rad", between(0, right_angle), "of the band, where it is steepest")
+      .with("shape", {"plane"})
+      .number<&T::side_angle>("side_angle", "rad", between(-right_angle, right_angle), "by which it falls along y")
+      .with("shape", {"helix"})
+      .number<&T::bend_radius>("bend_radius", "m", extent,
+                               "of the channel's middle, which sets out along x and turns towards y")
+      .number<&T::channel_depth>("channel_depth", "m", from(0, 1000), "of the channel")
+      .number<&T::channel_width>("channel_width", "m", extent, "of the channel between its edges")
+      .with("shape", {"ridge"})
+      .words<&T::ridge_runs>("ridge_runs", {"across", "along"}, "across the slope, or along its middle")
+      .number<&T::ridge_at>("ridge_at", "m", from(0, 1e5), "x of the crest from start on, where it runs across")
+      .number<&T::ridge_height>("ridge_height", "m", from(0, 1000), "of the crest over the slope")
+      .number<&T::ridge_width>("ridge_width", "m", extent, "of the Gaussian: from the crest to 0.61 of its height")
+      .with("shape", {"valley"})
+      .number<&T::floor_width>("floor_width", "m", from(0, 1e5), "of the level floor between the walls")
+      .number<&T::wall_angle>("wall_angle", "rad", between(0, right_angle), "towards which the walls rise")
+      .with("shape", {"plane", "parabola", "bowl", "helix", "ridge", "cliff_band", "valley"})
+      .number<&T::cell_size>("cell_size", "m", above(0, 1e4), "of the grid on which the shape is sampled")
       .with("shape", {"polyline"})
       .number<&T::points>("points", "m", position, "vertices (x, z) from left to right")
+      .with("shape", {"polyline", "grid"})
       .plain<&T::file>(
-          "file", "text file of such vertices, one \"x z\" in metres a line; its path is seen from the scene file");
+          "file",
+          "polyline: text file of such vertices, one \"x z\" in metres a line; grid: elevation model as an "
+          "ESRI ASCII grid; its path is seen from the scene file");
 
   using B = ObstacleSection;
   Rows<&Scene::obstacle>(r, "obstacle", "a solid box, for snow and air; there may be several")
@@ -82,13 +111,15 @@ void add_snow(Registry& r) {
   using R = ReleaseSection;
   Rows<&Scene::release>(r, "release", "snow let go at the start; there may be several")
       .words<&R::shape>(
-          "shape", {"slab", "box", "ball", "polygon"},
-          "slab: lies on the ground or the cover; polygon: in the x-z plane, in 3D over the whole breadth")
+          "shape", {"slab", "area", "box", "ball", "polygon"},
+          "slab: lies on the ground or the cover, over the whole breadth; area: the same under a polygon seen from "
+          "above (3D); polygon: in the x-z plane, in 3D over the whole breadth")
       .number<&R::density>("density", "kg/m^3", from(0, 1e5), "0: that of the dense flow")
       .with("shape", {"slab"})
       .number<&R::at>("at", "m", from(0, 1e6), "way along the ground to the slab's upper end")
       .number<&R::length>("length", "m", extent, "of the slab along the ground")
-      .number<&R::thickness>("thickness", "m", above(0, 1000), "of the slab, normal to the ground")
+      .with("shape", {"slab", "area"})
+      .number<&R::thickness>("thickness", "m", above(0, 1000), "of slab or area, normal to the ground")
       .number<&R::layers>("layers", "", from(0, 1e6), "of particles, in place of a thickness; 0: by the thickness")
       .with("shape", {"box"})
       .number<&R::lower>("lower", "m", position, "lower corner")
@@ -96,8 +127,9 @@ void add_snow(Registry& r) {
       .with("shape", {"ball"})
       .number<&R::center>("center", "m", position, "middle of the ball")
       .number<&R::radius>("radius", "m", extent, "of the ball")
-      .with("shape", {"polygon"})
-      .number<&R::points>("points", "m", position, "corners (x, z) one after the other")
+      .with("shape", {"area", "polygon"})
+      .number<&R::points>("points", "m", position,
+                          "corners one after the other: (x, y) of an area, (x, z) of a polygon")
       .always()
       .number<&R::velocity>("velocity", "m/s", speed, "initial velocity; default 0")
       .number<&R::shear>("shear", "1/s", from(-1e6, 1e6),
@@ -140,7 +172,8 @@ void add_snow(Registry& r) {
   Rows<&Scene::cover>(r, "cover", "the resting snow cover, as particles")
       .number<&C::depth>("depth", "m", above(0, 1000), "normal to the ground")
       .number<&C::density>("density", "kg/m^3", above(0, 1e5), "rho_a", "Eq. (15)")
-      .number<&C::from>("from", "m", from(0, 1e6), "way along the ground at which it begins")
+      .number<&C::from>("from", "m", from(0, 1e6),
+                        "way along the ground at which it begins; on a height field along x from the domain's left")
       .number<&C::to>("to", "m", from(-1, 1e6), "way along the ground at which it ends; negative: the ground's end")
       .number<&C::relaxation_steps>("relaxation_steps", "", from(0, 1e5), "of the sampling", "Sec. 4.5");
 }

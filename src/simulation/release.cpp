@@ -5,22 +5,12 @@
 #include <limits>
 
 #include "grid/open_fractions.hpp"
+#include "simulation/ground.hpp"
 #include "simulation/scene_vectors.hpp"
 #include "sph/sampling.hpp"
 
 namespace spindrift {
 namespace {
-
-/// Whether (x, z) lies inside a polygon, by the even-odd rule.
-bool inside(const std::vector<std::array<double, 2>>& corners, double x, double z) {
-  bool in = false;
-  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
-    const auto& [xi, zi] = corners[i];
-    const auto& [xj, zj] = corners[j];
-    if ((zi > z) != (zj > z) && x < xi + (xj - xi) * (z - zi) / (zj - zi)) in = !in;
-  }
-  return in;
-}
 
 /// Distance of (x, z) from the rim of a polygon [m], positive inside.
 double depth_inside(const std::vector<std::array<double, 2>>& corners, double x, double z) {
@@ -35,10 +25,12 @@ double depth_inside(const std::vector<std::array<double, 2>>& corners, double x,
   return inside(corners, x, z) ? nearest : -nearest;
 }
 
-/// Whether the cover lies anywhere along the ground from `from` to `to` [m].
-bool covered(const Scene& scene, double from, double to) {
+/// Whether the cover lies anywhere from place `from` to `to` along the ground [m].
+template <int Dim>
+bool covered(const Scene& scene, const Walls<Dim>& walls, double from, double to) {
   if (!scene.cover) return false;
-  return to > scene.cover->from && (scene.cover->to < 0 || from < scene.cover->to);
+  const double begin = way_begins(walls);
+  return to > begin + scene.cover->from && (scene.cover->to < 0 || from < begin + scene.cover->to);
 }
 
 template <int Dim>
@@ -46,13 +38,31 @@ Slab slab_of(const Scene& scene, const ReleaseSection& release, const Walls<Dim>
   Slab slab;
   slab.at = release.at;
   slab.length = release.length;
-  slab.base = covered(scene, slab.at, slab.at + slab.length) ? scene.cover->depth : 0;
+  slab.base = covered(scene, walls, slab.at, slab.at + slab.length) ? scene.cover->depth : 0;
   slab.thickness = release.thickness;
   slab.y = breadth_of(walls.domain);
   return slab;
 }
 
-/// The box around a release that is no slab.
+/// The layer that an area of release would be over its whole extent.
+template <int Dim>
+GroundLayer layer_of(const Scene& scene, const ReleaseSection& release, const Walls<Dim>& walls) {
+  GroundLayer layer;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto before = [k](const auto& a, const auto& b) { return a[k] < b[k]; };
+    const auto [least, most] = std::minmax_element(release.points.begin(), release.points.end(), before);
+    const auto axis = static_cast<Eigen::Index>(k);
+    layer.extent.lower[axis] = (*least)[k], layer.extent.upper[axis] = (*most)[k];
+  }
+  layer.base = covered(scene, walls, layer.extent.lower[0], layer.extent.upper[0]) ? scene.cover->depth : 0;
+  layer.thickness = release.thickness;
+  layer.spacing = scene.dense_flow->spacing();
+  layer.seed = scene.scene.seed;
+  if (scene.cover) layer.relaxation_steps = scene.cover->relaxation_steps;
+  return layer;
+}
+
+/// The box around a release that does not lie on the ground.
 template <int Dim>
 Box<Dim> box_around(const ReleaseSection& release, const Walls<Dim>& walls) {
   if (release.shape == "box") return box_of<Dim>(release.lower, release.upper);
@@ -80,6 +90,12 @@ bool contains(const Scene& scene, const ReleaseSection& release, const Walls<Dim
     return foot.place[0] > slab.at + margin && foot.place[0] < slab.at + slab.length - margin &&
            foot.distance > slab.base + margin && foot.distance < slab.base + slab.thickness - margin;
   }
+  if (release.shape == "area") {
+    const GroundLayer layer = layer_of(scene, release, walls);
+    const Foot<Dim> foot = walls.terrain->foot(x);
+    return foot.distance > layer.base + margin && foot.distance < layer.base + layer.thickness - margin &&
+           depth_inside(release.points, foot.place[0], foot.place[Dim - 2]) > margin;
+  }
   const Box<Dim> box = box_around<Dim>(release, walls);
   const Vec<Dim> rim = Vec<Dim>::Constant(margin);
   if (!Box<Dim>{box.lower + rim, box.upper - rim}.contains(x)) return false;
@@ -91,7 +107,19 @@ template <int Dim>
 bool in_cover(const Scene& scene, const Walls<Dim>& walls, const Vec<Dim>& x, double margin) {
   if (!scene.cover) return false;
   const Foot<Dim> foot = walls.terrain->foot(x);
-  return foot.distance < scene.cover->depth + margin && covered(scene, foot.place[0], foot.place[0]);
+  return foot.distance < scene.cover->depth + margin && covered(scene, walls, foot.place[0], foot.place[0]);
+}
+
+/// All particles that a release may have: to be looked at one by one.
+template <int Dim>
+Particles<Dim> sampled(const Scene& scene, const ReleaseSection& release, const Walls<Dim>& walls,
+                       const SnowKind<Dim>& kind) {
+  if (release.shape == "slab") return sample_slab<Dim>(*walls.terrain, slab_of(scene, release, walls), kind);
+  if constexpr (Dim == 3)
+    if (release.shape == "area")
+      return sample_area(*walls.terrain->height_field(), layer_of(scene, release, walls), kind,
+                         [&](const Vec<2>& place) { return inside(release.points, place[0], place[1]); });
+  return sample_box<Dim>(box_around<Dim>(release, walls), kind);
 }
 
 template <int Dim>
@@ -148,26 +176,37 @@ void for_each_filled(const SmokeSection& shape, const Suspension<Dim>& suspensio
 
 }  // namespace
 
+bool inside(const std::vector<std::array<double, 2>>& corners, double x, double z) {
+  bool in = false;
+  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
+    const auto& [xi, zi] = corners[i];
+    const auto& [xj, zj] = corners[j];
+    if ((zi > z) != (zj > z) && x < xi + (xj - xi) * (z - zi) / (zj - zi)) in = !in;
+  }
+  return in;
+}
+
 template <int Dim>
 ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls) {
   ReleasedSnow<Dim> snow;
   const double d = scene.dense_flow->spacing(), margin = 0.25 * d;
+  const Walls<Dim> beside_ground{{}, walls.obstacles, walls.domain, walls.sides};
   for (std::size_t r = 0; r < scene.release.size(); ++r) {
     const ReleaseSection& release = scene.release[r];
     SnowKind<Dim> kind;
     kind.spacing = d;
     kind.density = release.density > 0 ? release.density : scene.dense_flow->density;
     kind.velocity = vector_or<Dim>(release.velocity);
-    const Particles<Dim> lattice = release.shape == "slab"
-                                       ? sample_slab<Dim>(*walls.terrain, slab_of(scene, release, walls), kind)
-                                       : sample_box<Dim>(box_around<Dim>(release, walls), kind);
+    const bool is_area = release.shape == "area", on_ground = is_area || release.shape == "slab";
+    const Particles<Dim> all = sampled(scene, release, walls, kind);
     Particles<Dim> kept;
     ReleaseCount& count = snow.releases.emplace_back();
-    for (std::size_t i = 0; i < lattice.size(); ++i) {
-      const Vec<Dim>& x = lattice.position[i];
-      if (release.shape != "slab" && !contains(scene, release, walls, x, 0)) continue;
-      bool buried = in_cover(scene, walls, x, margin);
-      walls.for_each_near(x, margin, [&](double, const Vec<Dim>&) { buried = true; });
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Vec<Dim>& x = all.position[i];
+      if (!on_ground && !contains(scene, release, walls, x, 0)) continue;
+      // An area's snow begins where ground and cover end.
+      bool buried = !is_area && in_cover(scene, walls, x, margin);
+      (is_area ? beside_ground : walls).for_each_near(x, margin, [&](double, const Vec<Dim>&) { buried = true; });
       const bool doubled = std::any_of(scene.release.begin(), scene.release.begin() + static_cast<std::ptrdiff_t>(r),
                                        [&](const auto& earlier) { return contains(scene, earlier, walls, x, margin); });
       if (buried || doubled) {
@@ -176,7 +215,7 @@ ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls) {
       }
       ++count.placed;
       if (walls.outside(x)) ++count.outside;
-      kept.push_back_from(lattice, i);
+      kept.push_back_from(all, i);
     }
     set_in_motion(kept, release);
     for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -2,6 +2,7 @@
 /// What is there when the clock starts: the snow that a scene releases, and smoke in the air; and the smoke that keeps
 /// coming.
 
+#include <array>
 #include <vector>
 
 #include "grid/suspension.hpp"
@@ -10,6 +11,9 @@
 #include "terrain/walls.hpp"
 
 namespace spindrift {
+
+/// Whether (x, z), or (x, y), lies inside a polygon, by the even-odd rule.
+bool inside(const std::vector<std::array<double, 2>>& corners, double x, double z);
 
 /// What became of the particles of one release.
 struct ReleaseCount {
@@ -25,9 +29,9 @@ struct ReleasedSnow {
   std::vector<ReleaseCount> releases;  ///< in the order of the scene
 };
 
-/// Lattices of the particle spacing d in every shape, ids in the order of the scene. Places nearer than d/4 to
-/// something solid, or inside an earlier release, are left out.
-/// Velocity: velocity + shear (z - z_least) e_x + rotation (x - middle) turned from x to z.
+/// Lattices of the particle spacing d in every shape, an area's snow evenly spread instead; ids in the order of the
+/// scene. Places nearer than d/4 to something solid, or inside an earlier release, are left out. Velocity: velocity +
+/// shear (z - z_least) e_x + rotation (x - middle) turned from x to z.
 template <int Dim>
 ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls);
 

@@ -3,13 +3,18 @@
 /// or an empty list where there may be several of its kind: its physics does not exist. The values here are the preset
 /// "physical"; names, units, ranges and docs of the keys stand in registry.cpp.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spindrift {
+
+struct ElevationGrid;
 
 struct SceneSection {
   std::string name;  ///< of the run folder and the pictures; default: the file's stem
@@ -28,19 +33,37 @@ struct DomainSection {
   std::string left = "open", right = "open", bottom = "closed", top = "open", front = "closed", back = "closed";
 };
 
+/// Kinds of ground that are heights over a plane, in 3D only.
+inline constexpr std::array<std::string_view, 8> field_shapes = {"plane", "parabola",   "bowl",   "helix",
+                                                                 "ridge", "cliff_band", "valley", "grid"};
+
 struct TerrainSection {
-  std::string shape = "slope";                ///< "slope" | "bumps" | "cliff" | "polyline"
+  std::string shape = "slope";                ///< "slope" | "bumps" | "cliff" | "polyline" | one of field_shapes
   std::array<double, 2> start{0, 0};          ///< upper left end of the slope (x, z) [m]
   double angle = 0.5934119456780721;          ///< of the slope [rad], default 34 deg
   double drop = 50;                           ///< height of the whole slope from start to its foot [m]
   double runout_angle = 0;                    ///< of the ground beyond the foot [rad]
-  double transition_radius = 15;              ///< of the arc between slope and run-out [m]
+  double transition_radius = 15;              ///< of the arc between slope and run-out, or floor and wall [m]
   double bump_height = 1;                     ///< crest to trough [m] (bumps)
   double bump_length = 15;                    ///< wavelength along the slope [m] (bumps)
-  double cliff_at = 20;                       ///< drop from start at which the cliff begins [m] (cliff)
-  double cliff_height = 20;                   ///< [m] (cliff)
+  double cliff_at = 20;                       ///< drop from start at which the cliff begins [m] (cliff, cliff_band)
+  double cliff_height = 20;                   ///< [m] (cliff, cliff_band)
+  double cliff_angle = 1.2217304763960306;    ///< [rad], default 70 deg (cliff_band)
+  double side_angle = 0;                      ///< by which it falls along y [rad] (plane)
+  double bend_radius = 50;                    ///< of the channel's middle [m] (helix)
+  double channel_depth = 5;                   ///< [m] (helix)
+  double channel_width = 20;                  ///< between its edges [m] (helix)
+  std::string ridge_runs = "across";          ///< "across" | "along" (ridge)
+  double ridge_at = 40;                       ///< x of the crest from start on, of one that runs across [m] (ridge)
+  double ridge_height = 5;                    ///< [m] (ridge)
+  double ridge_width = 5;                     ///< from the crest to 0.61 of its height [m] (ridge)
+  double floor_width = 20;                    ///< [m] (valley)
+  double wall_angle = 0.7853981633974483;     ///< [rad], default 45 deg (valley)
+  double cell_size = 1;                       ///< of the grid that a 3D shape is sampled on [m]
   std::vector<std::array<double, 2>> points;  ///< vertices (x, z) [m] (polyline)
-  std::string file;                           ///< that the points come from; empty once they are read
+  std::string file;                           ///< of the points, empty once they are read, or of the grid's heights
+
+  bool is_field() const { return std::find(field_shapes.begin(), field_shapes.end(), shape) != field_shapes.end(); }
 };
 
 /// Something solid: an axis-aligned box.
@@ -50,16 +73,16 @@ struct ObstacleSection {
 
 /// Snow released at the start, on a lattice of the particle spacing.
 struct ReleaseSection {
-  std::string shape = "slab";                 ///< "slab": lies on the ground or cover | "box" | "ball" | "polygon"
+  std::string shape = "slab";                 ///< "slab", "area": on the ground or cover | "box" | "ball" | "polygon"
   double density = 0;                         ///< [kg m^-3]; 0: the dense flow's
   double at = 5;                              ///< arc length along the ground of the slab's upper end [m]
   double length = 5;                          ///< of the slab along the ground [m]
-  double thickness = 2;                       ///< of the slab, normal to the ground [m]
+  double thickness = 2;                       ///< of slab or area, normal to the ground [m]
   int layers = 0;                             ///< of particles, in place of a thickness; 0 once it is told
   std::vector<double> lower, upper;           ///< corners of the box [m]
   std::vector<double> center;                 ///< of the ball [m]
   double radius = 1;                          ///< of the ball [m]
-  std::vector<std::array<double, 2>> points;  ///< corners (x, z) of the polygon [m]
+  std::vector<std::array<double, 2>> points;  ///< corners (x, z) of the polygon, (x, y) of the area [m]
   std::vector<double> velocity;               ///< initial velocity [m s^-1], default 0
   double shear = 0;     ///< growth of the velocity along x with height over the snow's foot [s^-1]
   double rotation = 0;  ///< angular velocity about the snow's middle, from x to z [s^-1]
@@ -187,6 +210,11 @@ struct Scene {
   std::optional<CouplingSection> coupling;
   std::optional<EntrainmentSection> entrainment;
   OutputSection output;
+
+  /// The heights of terrain.file, once they are read, in the coordinates of the file.
+  std::shared_ptr<const ElevationGrid> elevation;
+  /// Of all other places here, in the coordinates of the scene file [m]: not zero in the solver's scene alone.
+  std::array<double, 3> origin{};
 };
 
 }  // namespace spindrift

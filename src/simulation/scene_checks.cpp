@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "simulation/ground_checks.hpp"
 #include "simulation/registry.hpp"
 #include "simulation/scene_vectors.hpp"
 #include "simulation/units.hpp"
@@ -23,7 +24,7 @@ class Checker {
     names();
     sections();
     corners("domain", scene_.domain.lower, scene_.domain.upper);
-    if (scene_.terrain) ground(*scene_.terrain);
+    if (scene_.terrain) check_ground(scene_, places_, report_);
     for (std::size_t i = 0; i < scene_.obstacle.size(); ++i) {
       const std::string section = numbered("obstacle", i, scene_.obstacle.size());
       corners(section, scene_.obstacle[i].lower, scene_.obstacle[i].upper);
@@ -87,12 +88,12 @@ class Checker {
   }
 
   void release(const std::string& section, const ReleaseSection& release) {
-    if (release.shape != "slab") return shape(section, release);
-    if (!scene_.terrain && report_.good({section + ".shape", "terrain"}))
-      add(section + ".shape", "\"slab\" needs the section [terrain], which the scene does not have");
+    if (release.shape == "slab" || release.shape == "area")
+      check_ground_under(release, section, scene_, places_, report_);
+    if (release.shape != "slab") shape(section, release);
   }
 
-  /// A box, a ball or a polygon.
+  /// A box, a ball, a polygon or an area.
   template <class Shaped>
   void shape(const std::string& section, const Shaped& shaped) {
     const std::string low = section + ".lower", high = section + ".upper", center = section + ".center";
@@ -104,10 +105,12 @@ class Checker {
       if (!corners(section, shaped.lower, shaped.upper)) return;
       inside_domain(low, shaped.lower, shaped.lower, axes);
       inside_domain(high, shaped.upper, shaped.upper, axes);
-    } else if (shaped.shape == "polygon") {
+    } else if (shaped.shape == "polygon" || shaped.shape == "area") {
+      const bool from_above = shaped.shape == "area";
       if (report_.good({points}) && shaped.points.size() < 3)
-        add(points, fmt::format("got {} points, expected at least 3 (x, z)", shaped.points.size()));
-      for (const auto& [x, z] : shaped.points) inside_domain(points, {x, z}, {x, z}, {0, dim() - 1});
+        add(points,
+            fmt::format("got {} points, expected at least 3 (x, {})", shaped.points.size(), from_above ? "y" : "z"));
+      for (const auto& [x, z] : shaped.points) inside_domain(points, {x, z}, {x, z}, {0, from_above ? 1 : dim() - 1});
     } else if (shaped.center.empty()) {
       if (report_.good({center})) add(center, fmt::format("missing, expected a list of {} lengths", dim()));
     } else {
@@ -144,31 +147,6 @@ class Checker {
     if (scene_.domain.top != "closed")
       add("suspension.lid", fmt::format("contradicts domain.top = \"{}\" at {}: a lid closes the top",
                                         scene_.domain.top, report_.text_of(place_of(places_, "domain.top"))));
-  }
-
-  void ground(const TerrainSection& terrain) {
-    if (!report_.good({"terrain.shape"})) return;
-    if (terrain.shape == "polyline") polyline(terrain.points);
-    if (terrain.shape == "cliff" && report_.good({"terrain.cliff_at", "terrain.cliff_height", "terrain.drop"}) &&
-        terrain.cliff_at + terrain.cliff_height >= terrain.drop)
-      add("terrain.cliff_height",
-          fmt::format("got {}, expected a cliff above the slope's foot: cliff_at + cliff_height "
-                      "below the drop of {} m at {}",
-                      number_text(terrain.cliff_height), number_text(terrain.drop),
-                      report_.text_of(place_of(places_, "terrain.drop"))));
-  }
-
-  void polyline(const std::vector<std::array<double, 2>>& points) {
-    const std::string_view path = places_.contains("terrain.file") ? "terrain.file" : "terrain.points";
-    if (!report_.good({path})) return;
-    if (points.size() < 2) return add(path, fmt::format("got {} points, expected at least 2 (x, z)", points.size()));
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      if (points[i][0] < points[i - 1][0])
-        return add(path, fmt::format("point {} lies left of the one before it; x may not decrease", i + 1));
-      if (points[i] == points[i - 1]) return add(path, fmt::format("point {} is the same as the one before it", i + 1));
-    }
-    if (points[0][0] == points[1][0] || points[points.size() - 2][0] == points.back()[0])
-      add(path, "the first and the last piece may not be vertical");
   }
 
   void ordered(std::string_view low, double low_value, std::string_view high, double high_value, bool strictly) {

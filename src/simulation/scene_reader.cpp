@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/esri_grid.hpp"
 #include "io/point_file.hpp"
 #include "simulation/registry.hpp"
 #include "simulation/scene_checks.hpp"
@@ -188,22 +189,30 @@ class Reader {
                 fmt::format("contradicts {} at {}: leave out one", other, report_.text_of(place_of(places_, other))));
   }
 
-  /// Puts the points of terrain.file into terrain.points, so that a scene does not depend on other files any more.
+  /// Puts what stands in terrain.file into terrain.points or the scene's elevation model.
   void read_terrain_file(const std::filesystem::path& folder) {
     constexpr std::string_view path = "terrain.file";
     if (!scene_.terrain || scene_.terrain->file.empty() || !report_.good({path, "terrain.points"})) return;
-    if (scene_.terrain->shape != "polyline" && report_.good({"terrain.shape"}))
+    const std::string& shape = scene_.terrain->shape;
+    if (shape != "polyline" && shape != "grid" && report_.good({"terrain.shape"}))
       return report_.add(place_of(places_, path), path,
-                         fmt::format("needs terrain.shape = \"polyline\"; it is \"{}\" at {}", scene_.terrain->shape,
+                         fmt::format("needs terrain.shape = \"polyline\" or \"grid\"; it is \"{}\" at {}", shape,
                                      report_.text_of(place_of(places_, "terrain.shape"))));
-    if (places_.contains("terrain.points")) return contradict(std::string(path), "terrain.points");
-    const std::filesystem::path file = folder / std::exchange(scene_.terrain->file, {});
+    if (shape == "polyline" && places_.contains("terrain.points"))
+      return contradict(std::string(path), "terrain.points");
+    const auto refuse = [&](const std::exception& error) { report_.add(place_of(places_, path), path, error.what()); };
     try {
-      scene_.terrain->points = read_points(file);
-      places_["terrain.points"] = place_of(places_, path);
+      if (shape == "grid") {
+        scene_.elevation = std::make_shared<const ElevationGrid>(read_esri_grid(folder / scene_.terrain->file));
+      } else {
+        scene_.terrain->points = read_points(folder / std::exchange(scene_.terrain->file, {}));
+        places_["terrain.points"] = place_of(places_, path);
+      }
     } catch (const PointFileError& error) {
-      report_.add(place_of(places_, path), path, error.what());
+      refuse(error);
       report_.suspect("terrain.points");
+    } catch (const GridFileError& error) {
+      refuse(error);
     }
   }
 

@@ -22,13 +22,20 @@ must be there. Every other section switches its part of the physics on, with the
 - **Numbers** are SI, or text with a unit: `support_radius = 0.21`, `"21 cm"`, `angle = "38 deg"`, `"2 min"`,
   `"72 km/h"`. A plain angle is in radians.
 - **Vectors** have as many numbers as the scene has dimensions: `[x, z]` in 2D, `[x, y, z]` in 3D. z points up. Ground
-  profiles and polygons are pairs `(x, z)` in both; in 3D they go on along y.
+  profiles and polygons are pairs `(x, z)` in both; in 3D they go on along y. Areas of release are pairs `(x, y)`.
 - **2D** is a slice one metre wide: masses are per metre of width.
 - **Several of a kind**: `[[release]]`, `[[obstacle]]` and `[[smoke]]` may stand more than once; a single one may also
   be written `[release]`. `--set release[1].thickness=3` changes the second of them.
 - **Terrain from a file**: `shape = "polyline"` with `file = "profile.txt"`, one point `x z` [m] a line, x from left to
   right; blanks, commas or semicolons between, `#` begins a comment, a first line of words counts for nothing. The first
   and the last piece go on beyond the points.
+- **3D grounds**: from `plane` to `valley` heights over the x-y plane by a formula, sampled every `cell_size` and
+  interpolated smoothly; they lie about the middle of the domain's breadth. A box that lies along its slope, with tilted
+  `domain.gravity`, gets a `valley` of `angle = 0`.
+- **Elevation models**: `shape = "grid"` with `file = "dem.asc"`, an ESRI ASCII grid with `xllcorner` or `xllcenter`, in
+  any letter case. The scene is told and its results are written in the model's coordinates. Heights must be known all
+  over the domain; the run folder keeps a copy as `terrain.asc`.
+- **Snow on 3D grounds**: `shape = "area"`, under a polygon seen from above, with its thickness normal to the ground.
 - **Presets**: `scene.preset` chooses the defaults: `physical`, measured snow, or `paper`, the constants of the paper.
 - **Mistakes** are told with file, line and column, what was expected and what was probably meant, all at once, before
   anything is written. What can be run but hardly makes sense gets a warning with its reason.

@@ -182,19 +182,26 @@ class Warner {
   template <int Dim>
   void ground(const Walls<Dim>& walls) {
     constexpr int n = 200;
-    int below = 0, above = 0;
-    for (int i = 0; i <= n; ++i) {
-      const double x = walls.domain.lower[0] + walls.domain.size()[0] * i / n;
-      const double z = walls.terrain->profile()->height(x);
+    int below = 0, above = 0, all = 0;
+    Index<Dim> samples;
+    samples.fill(walls.terrain->height_field() ? n + 1 : 1);
+    samples[0] = n + 1;
+    samples[up_axis<Dim>] = 1;
+    for_each_index<Dim>(samples, [&](const Index<Dim>& i) {
+      Vec<Dim> x = walls.domain.lower;
+      for (int axis = 0; axis < up_axis<Dim>; ++axis) x[axis] += walls.domain.size()[axis] * i[axis] / n;
+      const double z = walls.terrain->height(x);
       below += z < walls.domain.lower[up_axis<Dim>];
       above += z > walls.domain.upper[up_axis<Dim>];
-    }
+      ++all;
+    });
+    const std::string_view whole = walls.terrain->height_field() ? "area" : "length";
     if (below > 0)
-      add("terrain", fmt::format("lies below the domain over {} % of its length: snow leaves there",
-                                 std::max(1, 100 * below / (n + 1))));
+      add("terrain", fmt::format("lies below the domain over {} % of its {}: snow leaves there",
+                                 std::max(1, 100 * below / all), whole));
     if (above > 0)
-      add("terrain", fmt::format("fills the whole height of the domain over {} % of its length",
-                                 std::max(1, 100 * above / (n + 1))));
+      add("terrain", fmt::format("fills the whole height of the domain over {} % of its {}",
+                                 std::max(1, 100 * above / all), whole));
   }
 
   const Scene& scene_;

@@ -3,47 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/ground.hpp"
 #include "simulation/initial_flow.hpp"
 #include "simulation/release.hpp"
 #include "simulation/scene_vectors.hpp"
 #include "sph/sampling.hpp"
-#include "terrain/profiles.hpp"
 
 namespace spindrift {
 namespace {
-
-/// The ground goes on beyond the domain, so that open sides have ground to leave over.
-constexpr double beyond_the_domain = 50;    // [m]
-constexpr double ground_resolution = 0.25;  // of curved ground [m]
-
-std::vector<Vec<2>> ground_vertices(const TerrainSection& terrain, double domain_right) {
-  if (terrain.shape == "polyline") {
-    std::vector<Vec<2>> vertices;
-    for (const auto& point : terrain.points) vertices.emplace_back(point[0], point[1]);
-    return vertices;
-  }
-  SlopeProfile slope;
-  slope.start = {terrain.start[0], terrain.start[1]};
-  slope.angle = terrain.angle;
-  slope.drop = terrain.drop;
-  slope.runout_angle = terrain.runout_angle;
-  slope.transition_radius = terrain.transition_radius;
-  slope.bump_length = terrain.bump_length;
-  if (terrain.shape == "bumps") slope.bump_height = terrain.bump_height;
-  if (terrain.shape == "cliff") {
-    slope.cliff_at = terrain.cliff_at;
-    slope.cliff_height = terrain.cliff_height;
-  }
-  return slope_profile(slope, domain_right + beyond_the_domain, ground_resolution);
-}
 
 Side side_of(const std::string& word) {
   return word == "open" ? Side::open : Side::closed;
 }
 
-/// Arc length of the ground at x [m].
+/// Arc length of the ground at x [m]; on a height field x itself.
 template <int Dim>
 double ground_at(const Walls<Dim>& walls, double x) {
+  if (walls.terrain->height_field()) return x;
   Vec<Dim> surface = Vec<Dim>::Zero();
   surface[0] = x;
   surface[up_axis<Dim>] = walls.terrain->height(surface);
@@ -70,7 +46,7 @@ Walls<Dim> make_walls(const Scene& scene) {
   walls.sides[up_axis<Dim>] = {side_of(scene.domain.bottom), side_of(scene.domain.top)};
   for (const ObstacleSection& obstacle : scene.obstacle)
     walls.obstacles.push_back(box_of<Dim>(obstacle.lower, obstacle.upper));
-  if (scene.terrain) walls.terrain.emplace(ground_vertices(*scene.terrain, walls.domain.upper[0]));
+  if (scene.terrain) walls.terrain.emplace(make_terrain<Dim>(scene));
   return walls;
 }
 
@@ -80,8 +56,10 @@ std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls
   CoverLayer layer;
   layer.ground_from = ground_at(walls, walls.domain.lower[0]);
   layer.ground_to = ground_at(walls, walls.domain.upper[0]);
-  layer.from = std::max(scene.cover->from, layer.ground_from);
-  layer.to = scene.cover->to < 0 ? layer.ground_to : scene.cover->to;
+  const double begin = way_begins(walls);
+  layer.from = std::max(begin + scene.cover->from, layer.ground_from);
+  layer.to = scene.cover->to < 0 ? layer.ground_to : begin + scene.cover->to;
+  if (walls.terrain->height_field()) layer.to = std::min(layer.to, layer.ground_to);
   layer.y = breadth_of(walls.domain);
   layer.depth = scene.cover->depth;
   layer.seed = scene.scene.seed;

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "simulation/local_origin.hpp"
 #include "simulation/release.hpp"
 #include "simulation/state_check.hpp"
 
@@ -38,13 +39,13 @@ void find_normal_impulse(std::vector<double>& impulse, const DenseFlow<Dim>& den
 
 template <int Dim>
 Simulation<Dim>::Simulation(const Scene& scene)
-    : scene_(scene),
-      gravity_(make_gravity<Dim>(scene)),
-      walls_(make_walls<Dim>(scene)),
-      dense_(make_dense_flow<Dim>(scene, walls_)),
-      bed_friction_(make_bed_friction(scene)),
-      suspension_(make_suspension<Dim>(scene, walls_)),
-      coupling_(make_coupling(scene)) {
+    : scene_(around_local_origin(scene)),
+      gravity_(make_gravity<Dim>(scene_)),
+      walls_(make_walls<Dim>(scene_)),
+      dense_(make_dense_flow<Dim>(scene_, walls_)),
+      bed_friction_(make_bed_friction(scene_)),
+      suspension_(make_suspension<Dim>(scene_, walls_)),
+      coupling_(make_coupling(scene_)) {
   cover_ = make_cover<Dim>(scene_, walls_, dense_ ? dense_->particles.size() : 0);
   if (const auto options = make_entrainment(scene_)) entrainment_.emplace(*options);
   if (suspension_ && (walls_.terrain || !walls_.obstacles.empty())) {

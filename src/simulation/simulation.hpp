@@ -35,6 +35,7 @@ class Simulation {
   const BackOff& back_off() const { return back_off_; }
   bool done() const { return time_ >= scene_.scene.end_time; }
 
+  /// Around the solver's own origin (local_origin.hpp), as all places here.
   const Scene& scene() const { return scene_; }
   const Walls<Dim>& walls() const { return walls_; }
   const Vec<Dim>& gravity() const { return gravity_; }

@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "sph/ground_filling.hpp"
 #include "sph/kd_tree.hpp"
 #include "sph/tile.hpp"
 
@@ -181,6 +180,14 @@ Particles<Dim> sample_slab(const Terrain<Dim>& terrain, const Slab& slab, const 
   Particles<Dim> lattice = sample_box<Dim>({from, from + size}, kind);
   for (Vec<Dim>& x : lattice.position) x = terrain.position(Vec<Dim - 1>(x.template head<Dim - 1>()), x[Dim - 1]);
   return lattice;
+}
+
+Particles<3> sample_area(const HeightField& ground, const GroundLayer& layer, const SnowKind<3>& kind,
+                         const std::function<bool(const Vec<2>&)>& accepts) {
+  check_kind(kind);
+  Particles<3> snow;
+  for (const FilledPlace& place : fill_ground(ground, layer, accepts)) append(snow, place.position, kind);
+  return snow;
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "sph/cover.hpp"
+#include "sph/ground_filling.hpp"
 #include "sph/particles.hpp"
 #include "terrain/obstacle.hpp"
 #include "terrain/terrain.hpp"
@@ -67,6 +68,10 @@ struct Slab {
 /// A slab as a lattice in (arc length, y, normal distance): round(length/d) x round(breadth/d) x round(thickness/d).
 template <int Dim>
 Particles<Dim> sample_slab(const Terrain<Dim>& terrain, const Slab& slab, const SnowKind<Dim>& kind);
+
+/// Snow on the places of a height field that `accepts`, as evenly spread as cover.
+Particles<3> sample_area(const HeightField& ground, const GroundLayer& layer, const SnowKind<3>& kind,
+                         const std::function<bool(const Vec<2>&)>& accepts);
 
 /// An axis-aligned box as a lattice of round(size/d) particles an axis.
 template <int Dim>

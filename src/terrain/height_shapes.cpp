@@ -102,17 +102,19 @@ HeightFunction valley(const Vec<3>& start, double angle, double width, double wa
 }
 
 HeightGrid sampled(const HeightFunction& z, const Box<2>& extent, double rim, double cell) {
-  constexpr double most_points = 5e7;
   HeightGrid grid;
   grid.cell = cell;
+  Vec<2> points;
   for (int k = 0; k < 2; ++k) {
     const double first = std::floor((extent.lower[k] - rim) / cell), last = std::ceil((extent.upper[k] + rim) / cell);
-    if (!(last - first < most_points)) refuse("the ground would have more than 5e7 points: a larger cell_size");
     grid.first[k] = first * cell;
-    grid.points[k] = static_cast<int>(last - first) + 1;
+    points[k] = last - first + 1;
   }
-  if (static_cast<double>(grid.points[0]) * grid.points[1] > most_points)
-    refuse("the ground would have more than 5e7 points: a larger cell_size");
+  if (!(points.prod() <= 5e7))
+    throw Error(ExitCode::would_not_fit,
+                "the ground would have " + std::to_string(points.prod()) +
+                    " points, at most 5e7 can be: a larger terrain.cell_size or a smaller domain");
+  grid.points = {static_cast<int>(points[0]), static_cast<int>(points[1])};
   grid.z.resize(count<2>(grid.points));
   parallel_for(grid.z.size(), [&](std::size_t n) {
     const Index<2> i = unflat<2>(n, grid.points);

@@ -53,6 +53,7 @@ HeightFunction cliff_band(const SlopeProfile& slope, double end_x, double cliff_
 HeightFunction valley(const Vec<3>& start, double angle, double width, double wall_angle, double radius);
 
 /// Samples z over `extent` and `rim` [m] around it. The points lie at whole multiples of `cell` [m].
+/// Throws Error(would_not_fit): more than 5e7 points.
 HeightGrid sampled(const HeightFunction& z, const Box<2>& extent, double rim, double cell);
 
 }  // namespace spindrift

@@ -294,6 +294,36 @@ TEMPLATE_TEST_CASE_SIG("D2: the flux is Er whatever the spacing and the packing"
   CHECK(std::abs(taken / expected - 1) < std::max(0.02, 2 * standard_error));
 }
 
+TEST_CASE("D2 on a height field: the flux is Er per area of ground, whatever the slope",
+          "[entrainment][height_field]") {
+  const double slope = GENERATE(0.0, 0.8), spacing = 0.1, size = 3, depth = 0.8, dt = 0.01, rate = 10;
+  HeightGrid grid{{-4, -4}, 1, {12, 12}, {}};
+  for_each_index<2>(grid.points, [&](const Index<2>& i) { grid.z.push_back(-std::tan(slope) * i[0]); });
+  const Terrain<3> terrain{HeightField(grid)};
+  Cover<3> cover =
+      sample_cover<3>(terrain, {.to = size, .y = {0, size}, .depth = depth}, {.spacing = spacing, .density = 100});
+  Entrainment<3> entrainment({.rate = rate, .threshold = always, .spontaneous = GENERATE(false, true)});
+  Columns<3> columns;
+  double taken = 0;
+  const int steps = 200;
+  for (int step = 0; step < steps; ++step) {
+    Particles<3> snow;
+    for (double x = spacing / 2; x < size; x += spacing)
+      for (double y = spacing / 2; y < size; y += spacing) {
+        const double surface = cover.surface(ground_bin<3>(Vec<2>(x, y), 2 * spacing));
+        snow.id.push_back((1u << 30) + snow.id.size());
+        snow.position.push_back(terrain.position({x, y}, surface + spacing / 2));
+        snow.velocity.push_back(Vec<3>::Constant(5));
+        snow.mass.push_back(0.3), snow.volume.push_back(1e-3), snow.pressure.push_back(0);
+        snow.entrained_at.push_back(-1);
+      }
+    build_columns<3>(columns, terrain, snow, &cover, spacing, 2 * spacing);
+    entrainment.take(cover, snow, columns, {0, 0}, down<3>(), {.dt = dt, .seed = 5});
+    taken += entrainment.mass_taken();
+  }
+  CHECK(taken / (rate * size * size / std::cos(slope) * dt * steps) == Approx(1).epsilon(0.03));
+}
+
 TEMPLATE_TEST_CASE_SIG("Entrainment is the same with any number of threads, and warm columns allocate nothing",
                        "[entrainment]", ((int Dim), Dim), 2, 3) {
   const Terrain<Dim> terrain = incline<Dim>(0.6);

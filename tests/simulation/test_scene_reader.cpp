@@ -124,7 +124,7 @@ TEST_CASE("bad settings are refused at --set", "[scene]") {
         "--set: scene.seed: got \"5\\x0ascene.dim=3\", expected a whole number from 0");
   CHECK(refusal(snow, {"scene.seed=-1"}) == "--set: scene.seed: got -1, expected a whole number from 0");
   CHECK(refusal(snow, {"domain.lower=[1,2"}) ==
-        "--set: domain.lower: got \"[1,2\", expected a list of 2, each a length from -1e+06 to 1e+06 m");
+        "--set: domain.lower: got \"[1,2\", expected a list of 2, each a length from -1e+07 to 1e+07 m");
   const std::string two = head + "[terrain]\n[dense_flow]\n[[release]]\n[[release]]\nat = 20\n";
   CHECK(refusal(two, {"release.at=3"}) == "--set: release.at: which of the 2? release[0] to release[1]");
   CHECK(refusal(two, {"release[2].at=3"}) ==
