@@ -16,7 +16,7 @@ struct Relief {
   Vec<2> origin = Vec<2>::Zero();  ///< of the first point [m]
   double spacing = 1;              ///< [m]
   std::vector<float> height;       ///< z of the surface, snow and all [m]
-  std::vector<float> snow;         ///< depth of the snow cover [m]; empty: none anywhere
+  std::vector<float> snow;         ///< depth of the snow cover, normal to the ground [m]; empty: none anywhere
   Box<2> shown;                    ///< beyond it the ground fades away towards the grid's rim
 
   bool empty() const { return shape[0] < 2 || shape[1] < 2; }

@@ -60,10 +60,10 @@ class SmokeVolume {
   float sunlight(const Vec<3>& x) const;
   float skylight(const Vec<3>& x) const;
 
-  /// Goes along eye + t direction through the smoke, front to back from t = `from` to `to`: adds to what is seen
-  ///   clear' = -extinction clear,  sun' = extinction clear with_turned(sunlight(x)),  sky likewise,  over the length
-  ///   of
-  /// the way.   jitter: where in each step of a third of a cell the sample is taken, 0 to 1
+  /// Goes along eye + t direction through the smoke, front to back from t = `from` to `to`, and adds to what is seen,
+  /// over the length of the way:
+  ///   clear' = -extinction clear,  sun' = extinction clear with_turned(sunlight(x)),  sky likewise.
+  /// jitter: where in each step of a third of a cell the sample is taken, 0 to 1
   void pass(Seen& seen, const Vec<3>& eye, const Vec<3>& direction, double from, double to, double jitter) const;
 
  private:

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/parallel.hpp"
+#include "simulation/cover_relief.hpp"
 #include "simulation/setup.hpp"
 
 namespace spindrift {
@@ -16,7 +16,7 @@ constexpr double camera_elevation = 24 * degrees;
 constexpr double sun_aside = 65 * degrees;  // of the sun to the left of the camera
 constexpr double sun_elevation = 38 * degrees;
 constexpr double picture_rim = 0.04;  // kept free around the ground
-constexpr double headroom = 0.10;     // over the ground that is seen too, of the domain's extent
+constexpr double headroom = 0.10;     // over the ground that is seen too, of its extent; thrice if the domain has it
 
 constexpr int points_along = 300;  // of the ground, along the domain's longer side
 constexpr double beyond = 0.60;    // of the domain's longer side: ground that fades away around it
@@ -63,48 +63,6 @@ Box<3> bounds(std::span<const Vec<3>> points) {
   return box;
 }
 
-/// Between four points of a grid, at (s, t) in its steps; beyond it as at its edge.
-float between(const std::vector<float>& values, const Index<2>& shape, double s, double t) {
-  s = std::clamp(s, 0.0, shape[0] - 1.0), t = std::clamp(t, 0.0, shape[1] - 1.0);
-  const int i = static_cast<int>(s), j = static_cast<int>(t);
-  const float a = static_cast<float>(s - i), b = static_cast<float>(t - j);
-  const auto at = [&](int x, int y) {
-    return values[flat<2>({std::min(x, shape[0] - 1), std::min(y, shape[1] - 1)}, shape)];
-  };
-  return (1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) + b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
-}
-
-/// Each value the mean of it, twice, and its neighbours, along both axes; that so many times.
-std::vector<float> softened(std::vector<float> values, const Index<2>& shape, int times) {
-  std::vector<float> before(values.size());
-  for (; times > 0; --times) {
-    before.swap(values);
-    const auto soften = [&](std::size_t c) {
-      const Index<2> i = unflat<2>(c, shape);
-      float sum = 0, weights = 0;
-      for_each_index<2>({3, 3}, [&](const Index<2>& step) {
-        const Index<2> other{i[0] + step[0] - 1, i[1] + step[1] - 1};
-        if (!inside<2>(other, shape)) return;
-        const float weight = (step[0] == 1 ? 2.0f : 1.0f) * (step[1] == 1 ? 2.0f : 1.0f);
-        sum += weight * before[flat<2>(other, shape)];
-        weights += weight;
-      });
-      values[c] = sum / weights;
-    };
-    parallel_for(values.size(), soften, 2048);
-  }
-  return values;
-}
-
-/// The median of those above 0, else 0.
-float middle_one(std::vector<float> values) {
-  std::erase_if(values, [](float v) { return !(v > 0); });
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 View preview_view(const Scene& scene) {
@@ -128,7 +86,7 @@ void Scenery::fill_ground(const Scene& scene) {
   if (!walls.terrain && walls.sides[2][0] == Side::open) return;
   const Vec<2> size = domain_.size().head<2>();
   const double rim = beyond * size.maxCoeff();
-  ground_.spacing = std::max(size.maxCoeff() / points_along, size.minCoeff() / (4 * points_along));
+  ground_.spacing = size.maxCoeff() / points_along;
   ground_.origin = domain_.lower.head<2>() - Vec<2>::Constant(rim);
   for (int k = 0; k < 2; ++k)
     ground_.shape[static_cast<std::size_t>(k)] = static_cast<int>(std::ceil((size[k] + 2 * rim) / ground_.spacing)) + 1;
@@ -160,7 +118,8 @@ void Scenery::place_camera(const Compass& compass, const View& view) {
   outlook.elevation = view.elevation.value_or(camera_elevation);
   if (!none) {
     const std::size_t n = ground.size();
-    const double room = std::min(headroom * extent.size().norm(), domain_.size()[2]);
+    const double size = extent.size().norm(), above = domain_.upper[2] - extent.upper[2];
+    const double room = std::min(std::clamp(above, headroom * size, 3 * headroom * size), domain_.size()[2]);
     for (std::size_t i = 0; i < n; ++i) ground.push_back(ground[i] + room * compass.up);
   }
   camera_ = camera_around(ground, picture_rim, outlook, compass, view.width, view.height);
@@ -174,55 +133,13 @@ void Scenery::place_camera(const Compass& compass, const View& view) {
                                  view.sun_elevation.value_or(sun_elevation));
 }
 
-/// Raises the ground by the cover that lies on it: the highest of its particles over squares of two particles' edge.
-void Scenery::add_cover(Relief& ground, const PictureFrame& frame) const {
-  const Vec<2> size = domain_.size().head<2>();
-  const double wanted = std::max(2 * spacing_, ground.spacing);
-  Index<2> bins;
-  Vec<2> edge;
-  for (int k = 0; k < 2; ++k) {
-    bins[static_cast<std::size_t>(k)] = std::max(1, static_cast<int>(size[k] / wanted));
-    edge[k] = size[k] / bins[static_cast<std::size_t>(k)];
-  }
-  std::vector<float> depth(count<2>(bins), 0.0f);
-  for (std::size_t i = 0; i < frame.layer.size(); ++i) {
-    if (frame.layer[i] == 0) continue;
-    const float* const x = frame.positions.data() + 3 * i;
-    const double u = static_cast<double>(x[0]) - domain_.lower[0], v = static_cast<double>(x[1]) - domain_.lower[1];
-    if (!(u >= 0 && v >= 0 && u < size[0] && v < size[1])) continue;
-    const float base = between(ground_.height, ground_.shape, (x[0] - ground_.origin[0]) / ground_.spacing,
-                               (x[1] - ground_.origin[1]) / ground_.spacing);
-    const Index<2> bin{std::min(static_cast<int>(u / edge[0]), bins[0] - 1),
-                       std::min(static_cast<int>(v / edge[1]), bins[1] - 1)};
-    float& top = depth[flat<2>(bin, bins)];
-    top = std::max(top, x[2] - base + static_cast<float>(spacing_ / 2));
-  }
-  // Softened, so that single particles do not show. Beyond the domain snow goes on as it lies along the edge, but even.
-  const std::vector<float> smooth = softened(depth, bins, 1), even = softened(smooth, bins, 8);
-  const float full = middle_one(even);
-  ground.snow.resize(ground.height.size());
-  const auto raise = [&](std::size_t n) {
-    const Vec<2> place = ground.place(unflat<2>(n, ground.shape)) - domain_.lower.head<2>();
-    const double s = place[0] / edge[0] - 0.5, t = place[1] / edge[1] - 0.5;
-    const Vec<2> outside = (place - place.cwiseMax(0).cwiseMin(size)).cwiseQuotient(edge);
-    const float share = static_cast<float>(std::min(outside.norm() / 4, 1.0));
-    float snow = (1 - share) * between(smooth, bins, s, t);
-    // As deep as usual, but where there is none: its end stays where it is.
-    if (share > 0 && full > 0)
-      snow += share * full * std::clamp(4 * between(even, bins, s, t) / full - 1.5f, 0.0f, 1.0f);
-    ground.snow[n] = snow;
-    ground.height[n] += snow;
-  };
-  parallel_for(ground.height.size(), raise, 2048);
-}
-
 Landscape Scenery::landscape(const PictureFrame& frame) const {
   Landscape landscape;
   landscape.ground = ground_;
   landscape.boxes = obstacles_;
   landscape.opaque_smoke = opaque_smoke_;
   landscape.snow_radius = ball_of_cube * spacing_;
-  if (!ground_.empty() && !frame.positions.empty()) add_cover(landscape.ground, frame);
+  if (!ground_.empty() && !frame.positions.empty()) add_cover(landscape.ground, domain_, spacing_, frame);
   for (std::size_t i = 0; i < frame.layer.size(); ++i) {
     if (frame.layer[i] != 0) continue;
     const float* const x = frame.positions.data() + 3 * i;

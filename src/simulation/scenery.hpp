@@ -39,7 +39,6 @@ class Scenery {
  private:
   void fill_ground(const Scene& scene);
   void place_camera(const Compass& compass, const View& view);
-  void add_cover(Relief& ground, const PictureFrame& frame) const;
 
   Box<3> domain_;
   Relief ground_;  ///< bare

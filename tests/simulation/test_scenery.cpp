@@ -96,12 +96,16 @@ TEST_CASE("a picture's landscape has the ground under its cover, the snow by kin
 
   const ReliefSurface surface(landscape.ground);
   const double cos_slope = std::cos(38 * std::numbers::pi / 180);
-  // Away from the flow: on the slope, over the cover's depth in plumb line; beyond the domain it goes on.
+  // Away from the flow the cover is as deep as the scene says, and goes on beyond the domain.
   for (const double y : {0.4, 1.3}) {
     const ReliefSurface::Point point = surface.at(3.2, y);
-    CHECK(static_cast<double>(point.snow) == Approx(0.3 / cos_slope).margin(0.06));
+    CHECK(static_cast<double>(point.snow) == Approx(0.3).margin(0.05));
     CHECK(static_cast<double>(point.slope_x) == Approx(-std::tan(std::acos(cos_slope))).margin(0.15));
   }
+  const double bare_height = make_walls<3>(scene).terrain->height(3.2);
+  const Index<2> near{static_cast<int>((3.2 - landscape.ground.origin[0]) / landscape.ground.spacing), 5};
+  const Vec<3> top = surface.position(near);
+  CHECK(top[2] - bare_height + (top[0] - 3.2) * std::tan(std::acos(cos_slope)) == Approx(0.3 / cos_slope).margin(0.06));
   const PictureFrame bare = picture_frame(0, nullptr, nullptr);
   CHECK(scenery.landscape(bare).ground.snow.empty());
   CHECK(scenery.landscape(bare).snow.empty());
