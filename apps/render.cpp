@@ -16,6 +16,7 @@
 #include "io/frame_files.hpp"
 #include "plain_text.hpp"
 #include "run_folder.hpp"
+#include "simulation/local_origin.hpp"
 #include "simulation/preview.hpp"
 #include "simulation/scene_reader.hpp"
 #include "simulation/scenery.hpp"
@@ -145,7 +146,7 @@ Draw draw_deep(const RenderArguments& arguments, const Scene& scene) {
   return [scenery](const PictureFrame& stored) { return scenery->png(stored); };
 }
 
-std::vector<std::byte> picture_of(const FramePaths& paths, const Draw& draw) {
+std::vector<std::byte> picture_of(const FramePaths& paths, const Scene& scene, const Draw& draw) {
   std::optional<StoredFrame> particles, smoke;
   std::optional<StoredFile> particle_file, smoke_file;
   if (!paths.particles.empty()) {
@@ -156,13 +157,14 @@ std::vector<std::byte> picture_of(const FramePaths& paths, const Draw& draw) {
     smoke = read_frame_file(paths.smoke);
     smoke_file.emplace(StoredFile{*smoke, paths.smoke});
   }
-  return draw(picture_frame(particle_file ? &*particle_file : nullptr, smoke_file ? &*smoke_file : nullptr));
+  return draw(
+      picture_frame(particle_file ? &*particle_file : nullptr, smoke_file ? &*smoke_file : nullptr, scene.origin));
 }
 
 ExitCode render(const RenderArguments& arguments) {
   const auto run = read_run_json(arguments.folder);
   const auto frames = chosen_frames(arguments);
-  Scene scene = read_scene(fs::path(arguments.folder) / "scene.toml");
+  Scene scene = around_local_origin(read_scene(fs::path(arguments.folder) / "scene.toml"));
   if (arguments.opaque_smoke) scene.output.opaque_smoke = *arguments.opaque_smoke;
   const ThreadLimit threads(arguments.threads);
   const Draw draw = scene.scene.dim == 3 ? draw_deep(arguments, scene) : draw_flat(arguments, scene);
@@ -172,7 +174,7 @@ ExitCode render(const RenderArguments& arguments) {
   {
     Counter counter(frames.size(), "pictures");
     for (const auto& [number, paths] : frames) {
-      commit(out / fmt::format("{:06}.png", number), picture_of(paths, draw));
+      commit(out / fmt::format("{:06}.png", number), picture_of(paths, scene, draw));
       counter.count();
     }
   }

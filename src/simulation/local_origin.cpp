@@ -12,10 +12,12 @@ constexpr double far_from_zero = 20e3, step = 1e3;  // [m]
 
 Scene around_local_origin(Scene scene) {
   if (scene.scene.dim != 3) return scene;
-  for (std::size_t k = 0; k < 2; ++k)
+  std::array<double, 2> origin{};
+  for (std::size_t k = 0; k < 2; ++k) {
     if (std::max(std::abs(scene.domain.lower[k]), std::abs(scene.domain.upper[k])) > far_from_zero)
-      scene.origin[k] = step * std::floor(scene.domain.lower[k] / step);
-  const auto& origin = scene.origin;
+      origin[k] = step * std::floor(scene.domain.lower[k] / step);
+    scene.origin[k] += origin[k];
+  }
   if (origin[0] == 0 && origin[1] == 0) return scene;
 
   const auto move = [&](std::vector<double>& place) {

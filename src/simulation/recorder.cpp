@@ -14,6 +14,7 @@
 #include "io/system.hpp"
 #include "simulation/diagnostics.hpp"
 #include "simulation/frame.hpp"
+#include "simulation/local_origin.hpp"
 #include "simulation/preview.hpp"
 #include "simulation/scene_writer.hpp"
 
@@ -61,7 +62,7 @@ Recorder<Dim>::Recorder(const Scene& scene, const RunOptions& options)
     commit(options_.folder / kept.terrain->file, esri_grid_text(*scene.elevation));
   }
   commit(options_.folder / "scene.toml", write_scene(kept));
-  if (Dim == 3 && scene.output.preview) scenery_.emplace(scene, preview_view(scene));
+  if (Dim == 3 && scene.output.preview) scenery_.emplace(around_local_origin(scene), preview_view(scene));
 }
 
 template <int Dim>
@@ -135,8 +136,8 @@ void Recorder<Dim>::draw_preview(const Simulation<Dim>& simulation, std::uint64_
   if constexpr (Dim == 2) {
     writer_.submit([path, frame = preview_frame(simulation)] { commit(path, frame.png()); });
   } else {
-    writer_.submit([path, time = simulation.time(), snow, smoke, this] {
-      commit(path, scenery_->png(picture_frame(time, snow.get(), smoke.get())));
+    writer_.submit([path, time = simulation.time(), origin = simulation.scene().origin, snow, smoke, this] {
+      commit(path, scenery_->png(picture_frame(time, snow.get(), smoke.get(), origin)));
     });
   }
 }

@@ -25,7 +25,8 @@ View preview_view(const Scene& scene);
 
 class Scenery {
  public:
-  /// Pre: scene.dim == 3.   Throws Error(bad_input): numbers that describe no ground.
+  /// scene: around the solver's own origin (local_origin.hpp).   Pre: scene.dim == 3.   Throws Error(bad_input):
+  /// numbers that describe no ground.
   Scenery(const Scene& scene, const View& view);
 
   /// A PNG file.   Throws Error(would_not_fit), Error(io_failed).

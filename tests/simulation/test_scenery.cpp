@@ -88,7 +88,7 @@ TEST_CASE("a picture's landscape has the ground under its cover, the snow by kin
   const ParticleFrame snow = particle_frame(simulation);
   const SmokeFrame smoke = smoke_frame(simulation);
   const Scenery scenery(scene, preview_view(scene));
-  const Landscape landscape = scenery.landscape(picture_frame(simulation.time(), &snow, &smoke));
+  const Landscape landscape = scenery.landscape(picture_frame(simulation.time(), &snow, &smoke, {}));
   CHECK(landscape.snow.size() == simulation.dense()->particles.size());
   CHECK(std::ranges::count(landscape.snow_kind, 1) == static_cast<std::ptrdiff_t>(simulation.masses().n_entrained));
   CHECK(landscape.smoke.density.size() == simulation.suspension()->smoke_mass().size());
@@ -106,7 +106,7 @@ TEST_CASE("a picture's landscape has the ground under its cover, the snow by kin
   const Index<2> near{static_cast<int>((3.2 - landscape.ground.origin[0]) / landscape.ground.spacing), 5};
   const Vec<3> top = surface.position(near);
   CHECK(top[2] - bare_height + (top[0] - 3.2) * std::tan(std::acos(cos_slope)) == Approx(0.3 / cos_slope).margin(0.06));
-  const PictureFrame bare = picture_frame(0, nullptr, nullptr);
+  const PictureFrame bare = picture_frame(0, nullptr, nullptr, {});
   CHECK(scenery.landscape(bare).ground.snow.empty());
   CHECK(scenery.landscape(bare).snow.empty());
 }
@@ -119,7 +119,7 @@ TEST_CASE("frames that were read back give the picture of a 2D simulation again"
   const StoredFrame snow = read_vtkhdf(particle_frame(simulation).file(), "snow");
   const StoredFrame smoke = read_vtkhdf(smoke_frame(simulation).file(), "smoke");
   const StoredFile snow_file{snow, "snow"}, smoke_file{smoke, "smoke"};
-  const PreviewFrame again = preview_frame(scene, simulation.walls(), picture_frame(&snow_file, &smoke_file));
+  const PreviewFrame again = preview_frame(scene, simulation.walls(), picture_frame(&snow_file, &smoke_file, {}));
   CHECK(again.width == drawn.width);
   CHECK(again.time == drawn.time);
   CHECK(again.ground == drawn.ground);
