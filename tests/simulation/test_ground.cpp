@@ -15,6 +15,7 @@
 #include "simulation/run.hpp"
 #include "simulation/scene_warnings.hpp"
 #include "simulation/setup.hpp"
+#include "simulation/simulation.hpp"
 
 using namespace spindrift;
 namespace fs = std::filesystem;
