@@ -73,10 +73,11 @@ bool contains(const Scene& scene, const ReleaseSection& release, const Walls<Dim
            foot.distance > slab.base + margin && foot.distance < slab.base + slab.thickness - margin;
   }
   if (release.shape == "area") {
+    // Areas have their places from the same tile: a margin would let two of them put snow in the same place.
     const GroundLayer layer = layer_of(scene, release, walls);
     const Foot<Dim> foot = walls.terrain->foot(x);
-    return foot.distance > layer.base + margin && foot.distance < layer.base + layer.thickness - margin &&
-           depth_inside(release.points, foot.place[0], foot.place[Dim - 2]) > margin;
+    return foot.distance > layer.base && foot.distance < layer.base + layer.thickness &&
+           inside(release.points, foot.place[0], foot.place[Dim - 2]);
   }
   const Box<Dim> box = box_around<Dim>(release, walls);
   const Vec<Dim> rim = Vec<Dim>::Constant(margin);
