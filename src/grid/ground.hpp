@@ -34,6 +34,7 @@ class Ground {
   const std::vector<std::uint32_t>& small_cells() const { return small_cells_; }
   /// The faces of each row of `axis` that are open or within `n_layers` of it.
   const std::vector<Span>& rows(int axis) const { return rows_[static_cast<std::size_t>(axis)]; }
+  const std::array<std::vector<Span>, Dim>& rows() const { return rows_; }
 
   /// Closed faces within n_layers of open ones take the mean of their neighbours in the layer above.
   void extrapolate(FaceField<Dim>& u) const;

@@ -21,7 +21,7 @@ inline Scene scene_with_everything(int dim, std::string_view preset = "physical"
   scene.domain.gravity.assign(n, 0);
   scene.domain.gravity.back() = -9.81;
   scene.release[0].velocity.assign(n, 0);
-  scene.suspension->wind.assign(n, 2.5);
+  scene.suspension->wind.assign(n, 0);
   scene.suspension->lid.assign(n, 0);
   scene.smoke[0].lower.assign(n, 1);
   scene.smoke[0].upper.assign(n, 2);

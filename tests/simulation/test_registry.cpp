@@ -59,6 +59,7 @@ bool bound_to_others(const Key& key) {
                                             "release.layers",
                                             "cover.to",
                                             "suspension.cell_size",
+                                            "suspension.initial_flow",
                                             "dense_flow.support_radius",
                                             "entrainment.threshold_surface"};
   return bound.contains(key.path) || key.section() == "domain";
@@ -79,8 +80,9 @@ TEST_CASE("every member of every section has a key", "[registry]") {
   CHECK(n_keys("smoke") == n_members<SmokeSection>());
   CHECK(n_keys("dense_flow") == n_members<DenseFlowSection>());
   CHECK(n_keys("cover") == n_members<CoverSection>());
-  CHECK(n_keys("suspension") == n_members<SuspensionSection>() - 1);  // less confinement
+  CHECK(n_keys("suspension") == n_members<SuspensionSection>() - 2);  // less confinement, tiles
   CHECK(n_keys("suspension.confinement") == n_members<ConfinementSection>());
+  CHECK(n_keys("suspension.tiles") == n_members<TilesSection>());
   CHECK(n_keys("coupling") == n_members<CouplingSection>() - 4);  // less drag, lift, generation, adhesion
   CHECK(n_keys("coupling.drag") == n_members<DragSection>());
   CHECK(n_keys("coupling.lift") == n_members<LiftSection>());
@@ -130,6 +132,7 @@ TEST_CASE("defaults are the structs' own", "[registry]") {
   structs.dense_flow.emplace();
   structs.cover.emplace();
   structs.suspension.emplace().confinement.emplace();
+  structs.suspension->tiles.emplace();
   structs.coupling.emplace();
   structs.coupling->drag.emplace();
   structs.coupling->lift.emplace();
