@@ -2,7 +2,6 @@
 /// What is there when the clock starts: the snow that a scene releases, and smoke in the air; and the smoke that keeps
 /// coming.
 
-#include <array>
 #include <vector>
 
 #include "grid/suspension.hpp"
@@ -11,9 +10,6 @@
 #include "terrain/walls.hpp"
 
 namespace spindrift {
-
-/// Whether (x, z), or (x, y), lies inside a polygon, by the even-odd rule.
-bool inside(const std::vector<std::array<double, 2>>& corners, double x, double z);
 
 /// What became of the particles of one release.
 struct ReleaseCount {
