@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "core/parallel.hpp"
+#include "io/esri_grid.hpp"
 #include "plain_text.hpp"
 #include "simulation/plan.hpp"
 #include "simulation/scene_reader.hpp"
@@ -19,6 +20,17 @@ void row(std::string_view name, fmt::format_string<T...> format, T&&... values) 
   fmt::print("{:<11} {}\n", name, fmt::format(format, std::forward<T>(values)...));
 }
 
+/// To the centimetre.
+std::string metres(double x) {
+  return fmt::format("{}", std::round(100 * x) / 100);
+}
+
+std::string model_text(const ElevationGrid& model) {
+  const auto holes = std::ranges::count_if(model.z, [](double z) { return std::isnan(z); });
+  return fmt::format("{} x {} heights, {:g} m apart, {:.0f} % of them holes", model.columns, model.rows, model.cell,
+                     100.0 * static_cast<double>(holes) / static_cast<double>(model.z.size()));
+}
+
 ExitCode check(const SceneArguments& arguments) {
   std::filesystem::path folder;
   Plan plan;
@@ -29,6 +41,14 @@ ExitCode check(const SceneArguments& arguments) {
   for (std::size_t k = 0; k < plan.grid.size(); ++k)
     grid = k == 0 ? count_text(plan.grid[k]) : grid + " x " + count_text(plan.grid[k]);
   row("scene", "{}, {}D, {:g} s", scene.scene.name, scene.scene.dim, scene.scene.end_time);
+  std::string extent;
+  for (std::size_t k = 0; k < scene.domain.lower.size(); ++k)
+    extent += fmt::format("{}{} {} to {} m", k > 0 ? ", " : "", scene.scene.dim == 2 ? "xz"[k] : "xyz"[k],
+                          metres(scene.domain.lower[k]), metres(scene.domain.upper[k]));
+  row("extent", "{}", extent);
+  if (scene.elevation) row("terrain", "{}", model_text(*scene.elevation));
+  if (plan.release_area > 0) row("release", "{:.0f} m^2 of ground, {:.0f} m^3", plan.release_area, plan.release_volume);
+  if (plan.cover_area > 0) row("cover", "{:.0f} m^2 of ground, {:g} m deep", plan.cover_area, scene.cover->depth);
   row("particles", "about {} released, {} in the cover", count_text(plan.n_release), count_text(plan.n_cover));
   row("cells", "{} ({})", count_text(plan.n_cells), grid);
   row("frames", "{}", count_text(plan.n_frames));

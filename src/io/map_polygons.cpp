@@ -9,10 +9,10 @@
 #include <utility>
 
 #ifdef SPINDRIFT_GDAL
-#include <cpl_error.h>
-#include <gdal.h>
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
+
+#include "io/gdal_session.hpp"
 #endif
 
 namespace spindrift {
@@ -43,6 +43,17 @@ bool MapPolygon::contains(double x, double y) const {
   return inside;
 }
 
+std::vector<std::array<double, 2>> MapPolygon::one_ring() const {
+  Ring ring = rings.front();
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    const std::array<double, 2> from = ring.back();
+    ring.insert(ring.end(), rings[i].begin(), rings[i].end());
+    ring.push_back(rings[i].front());
+    ring.push_back(from);
+  }
+  return ring;
+}
+
 double MapPolygon::area() const {
   double sum = 0;
   for (std::size_t i = 0; i < rings.size(); ++i) sum += (i == 0 ? 0.5 : -0.5) * std::abs(twice_area(rings[i]));
@@ -64,18 +75,6 @@ std::vector<MapPolygon> read_map_polygons(const std::filesystem::path& file) {
 #else
 
 namespace {
-
-/// GDAL's last complaint, kept off the terminal while this lives.
-struct QuietGdal {
-  QuietGdal() {
-    GDALAllRegister();
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLErrorReset();
-  }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
 
 struct Reader {
   const std::filesystem::path& file;
@@ -123,7 +122,9 @@ struct Reader {
     MapPolygon fields;
     fields.number = static_cast<std::size_t>(OGR_F_GetFID(feature));
     // Field names count in any letter case.
-    const int name = OGR_F_GetFieldIndex(feature, "name"), thickness = OGR_F_GetFieldIndex(feature, "thickness");
+    const int name = OGR_F_GetFieldIndex(feature, "name");
+    int thickness = OGR_F_GetFieldIndex(feature, "thickness");
+    if (thickness < 0) thickness = OGR_F_GetFieldIndex(feature, "d0");
     if (name >= 0 && OGR_F_IsFieldSetAndNotNull(feature, name)) fields.name = OGR_F_GetFieldAsString(feature, name);
     if (thickness >= 0 && OGR_F_IsFieldSetAndNotNull(feature, thickness)) {
       const std::string text = OGR_F_GetFieldAsString(feature, thickness);

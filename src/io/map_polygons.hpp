@@ -16,13 +16,16 @@ struct MapFileError : std::runtime_error {
 };
 
 struct MapPolygon {
-  std::string name;                                       ///< of its field "name" or "NAME"; empty: it has none
-  std::optional<double> thickness;                        ///< of its field "thickness", normal to the ground [m]
+  std::string name;                 ///< of its field "name" or "NAME"; empty: it has none
+  std::optional<double> thickness;  ///< of its field "thickness" or "d0", normal to the ground [m]
   std::vector<std::vector<std::array<double, 2>>> rings;  ///< the outline, then holes; the first point not repeated [m]
   std::size_t number = 0;                                 ///< of the feature in its file, from 0
 
   /// Whether (x, y) lies inside: inside an odd number of rings.
   bool contains(double x, double y) const;
+  /// The outline that goes to every hole, around it and back on the same line: by the even-odd rule it has the same
+  /// inside.   Pre: there is an outline.
+  std::vector<std::array<double, 2>> one_ring() const;
   /// Area in plan [m^2].
   double area() const;
 };

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "io/esri_grid.hpp"
+#include "simulation/raised_ground.hpp"
 #include "terrain/height_shapes.hpp"
 #include "terrain/profiles.hpp"
 
@@ -75,6 +76,7 @@ void fill_holes(HeightGrid& grid) {
       }
 }
 
+/// Of the model's part under the domain and a rim, holes included.
 /// origin: of the domain's coordinates in those of the model [m].
 HeightGrid heights_under(const Box<2>& domain, const ElevationGrid& model, const Vec<2>& origin) {
   const Vec<2> around = Vec<2>::Constant(rim + 4 * model.cell);
@@ -85,7 +87,6 @@ HeightGrid heights_under(const Box<2>& domain, const ElevationGrid& model, const
   for (int k = 0; k < 2; ++k) grid.points[k] = part.last[k] - part.first[k] + 1;
   for_each_index<2>(grid.points,
                     [&](const Index<2>& i) { grid.z.push_back(model.at(part.first[0] + i[0], part.first[1] + i[1])); });
-  fill_holes(grid);
   return grid;
 }
 
@@ -113,11 +114,24 @@ Box<2> domain_in_plan(const Scene& scene) {
 HeightGrid ground_heights(const Scene& scene) {
   const TerrainSection& terrain = *scene.terrain;
   const Box<2> domain = domain_in_plan(scene);
+  HeightGrid grid;
   if (terrain.shape == "grid") {
     SPINDRIFT_CHECK(scene.elevation != nullptr);
-    return heights_under(domain, *scene.elevation, {scene.origin[0], scene.origin[1]});
+    grid = heights_under(domain, *scene.elevation, {scene.origin[0], scene.origin[1]});
+    fill_holes(grid);
+  } else {
+    grid = sampled(shape_of(terrain, domain), domain, rim + 4 * terrain.cell_size, terrain.cell_size);
   }
-  return sampled(shape_of(terrain, domain), domain, rim + 4 * terrain.cell_size, terrain.cell_size);
+  raise_obstacles(grid, scene.obstacle);
+  return grid;
+}
+
+KnownGround known_ground(const Scene& scene) {
+  const HeightGrid grid = heights_under(domain_in_plan(scene), *scene.elevation, {scene.origin[0], scene.origin[1]});
+  if (std::ranges::none_of(grid.z, [](double z) { return std::isnan(z); })) return {};
+  std::vector<std::uint8_t> known(grid.z.size());
+  std::ranges::transform(grid.z, known.begin(), [](double z) { return !std::isnan(z); });
+  return {grid.first, grid.cell, grid.points, std::move(known)};
 }
 
 double ground_area(const HeightField& ground, const Box<2>& extent, const std::function<bool(const Vec<2>&)>& counts) {

@@ -6,6 +6,7 @@
 
 #include "simulation/scene.hpp"
 #include "terrain/height_field.hpp"
+#include "terrain/known_ground.hpp"
 #include "terrain/walls.hpp"
 
 namespace spindrift {
@@ -15,8 +16,11 @@ template <int Dim>
 Terrain<Dim> make_terrain(const Scene& scene);
 
 /// The heights of a scene's height field: of its shape, sampled, or of its elevation model, of which the part under the
-/// domain and a rim is kept; holes in the rim get the nearest known height.
+/// domain and a rim is kept; holes get the nearest known height. Obstacles of shape "area" are part of it.
 HeightGrid ground_heights(const Scene& scene);
+
+/// Where the scene's elevation model has heights, around the domain.   Pre: there is one.
+KnownGround known_ground(const Scene& scene);
 
 /// First coordinate of the place from which ways along the ground are counted [m].
 template <int Dim>

@@ -7,6 +7,7 @@
 
 #include "io/esri_grid.hpp"
 #include "simulation/ground.hpp"
+#include "simulation/outline_checks.hpp"
 #include "simulation/units.hpp"
 
 namespace spindrift {
@@ -66,11 +67,12 @@ class GroundChecker {
       add(path, "the first and the last piece may not be vertical");
   }
 
-  /// The elevation model has heights all over the domain.
+  /// The elevation model lies under the whole domain. It may have holes there.
   void grid() {
     constexpr std::string_view path = "terrain.file";
     if (!report_.good({path, "domain.lower", "domain.upper"})) return;
-    if (scene_.elevation == nullptr) return add(path, "missing, expected the path of an ESRI ASCII grid");
+    if (scene_.elevation == nullptr)
+      return add(path, "missing, expected the path of an elevation model, or terrain.avaframe");
     const ElevationGrid& model = *scene_.elevation;
     const Box<2> domain = domain_in_plan(scene_);
     const Vec<2> half = Vec<2>::Constant(model.cell / 2), corner = Vec<2>(model.x, model.y) - half;
@@ -87,22 +89,14 @@ class GroundChecker {
       if (domain.lower[k] < extent.lower[k]) off("domain.lower", domain.lower[k]);
       if (domain.upper[k] > extent.upper[k]) off("domain.upper", domain.upper[k]);
     }
-    if (covered) holes(model, part_under(domain, model));
+    if (covered) heights(model, part_under(domain, model));
   }
 
-  void holes(const ElevationGrid& model, const GridPart& part) {
-    Index<2> first{}, shape;
-    std::size_t n = 0;
-    for (int k = 0; k < 2; ++k) shape[k] = part.last[k] - part.first[k] + 1;
-    for_each_index<2>(shape, [&](const Index<2>& i) {
-      const Index<2> at{part.first[0] + i[0], part.first[1] + i[1]};
-      if (std::isnan(model.at(at[0], at[1])) && n++ == 0) first = at;
-    });
-    if (n > 0)
-      add("terrain.file",
-          fmt::format("has {} hole{} under the domain, the first at ({}, {}), expected heights all over it", n,
-                      n > 1 ? "s" : "", number_text(model.x + first[0] * model.cell),
-                      number_text(model.y + first[1] * model.cell)));
+  void heights(const ElevationGrid& model, const GridPart& part) {
+    for (int row = part.first[1]; row <= part.last[1]; ++row)
+      for (int column = part.first[0]; column <= part.last[0]; ++column)
+        if (!std::isnan(model.at(column, row))) return;
+    add("terrain.file", "has no heights under the domain, all are holes");
   }
 
   std::string text_of(std::string_view path) const { return report_.text_of(place_of(places_, path)); }
@@ -133,6 +127,20 @@ void check_ground_under(const ReleaseSection& release, const std::string& sectio
   if (release.shape == "area" && !scene.terrain->is_field())
     add(fmt::format("\"area\" needs one of the 3D grounds \"{}\", {}; did you mean \"slab\"?",
                     fmt::join(field_shapes, "\", \""), ground));
+  if (release.shape == "area") check_area(section + ".points", release.points, scene, places, report);
+}
+
+void check_area(const std::string& path, const std::vector<std::array<double, 2>>& points, const Scene& scene,
+                const Places& places, SceneReport& report) {
+  if (!scene.elevation || points.size() < 3 || !report.good({path})) return;
+  const std::string wrong = off_the_model(*scene.elevation, points);
+  if (!wrong.empty()) report.add(place_of(places, path), path, wrong);
+}
+
+void check_area_ground(const std::string& path, const Scene& scene, const Places& places, SceneReport& report) {
+  if (!report.good({"terrain", "terrain.shape", "scene.dim"}) || (scene.terrain && scene.terrain->is_field())) return;
+  report.add(place_of(places, path), path,
+             fmt::format("needs one of the 3D grounds \"{}\" as terrain.shape", fmt::join(field_shapes, "\", \"")));
 }
 
 }  // namespace spindrift

@@ -13,4 +13,11 @@ void check_ground(const Scene& scene, const Places& places, SceneReport& report)
 void check_ground_under(const ReleaseSection& release, const std::string& section, const Scene& scene,
                         const Places& places, SceneReport& report);
 
+/// Adds to the report that the outline `points` at `path` lies off the elevation model, or over a hole of it.
+void check_area(const std::string& path, const std::vector<std::array<double, 2>>& points, const Scene& scene,
+                const Places& places, SceneReport& report);
+
+/// Adds to the report that there is no 3D ground for what stands at `path`.
+void check_area_ground(const std::string& path, const Scene& scene, const Places& places, SceneReport& report);
+
 }  // namespace spindrift

@@ -34,7 +34,12 @@ Scene around_local_origin(Scene scene) {
     scene.terrain->start[0] -= origin[0];
     move_points(scene.terrain->points, false);
   }
-  for (ObstacleSection& obstacle : scene.obstacle) move(obstacle.lower), move(obstacle.upper);
+  for (ObstacleSection& obstacle : scene.obstacle) {
+    move(obstacle.lower), move(obstacle.upper);
+    move_points(obstacle.points, true);
+  }
+  if (scene.cover)
+    for (auto& area : scene.cover->areas) move_points(area, true);
   for (ReleaseSection& release : scene.release) {
     move(release.lower), move(release.upper), move(release.center);
     move_points(release.points, release.shape == "area");

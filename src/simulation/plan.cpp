@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "simulation/ground.hpp"
-#include "simulation/release.hpp"
+#include "simulation/outline.hpp"
 
 namespace spindrift {
 namespace {
@@ -47,28 +47,17 @@ double box_volume(const std::vector<double>& lower, const std::vector<double>& u
   return volume;
 }
 
-/// By the sum over its trapezes [m^2].
-double polygon_area(const std::vector<std::array<double, 2>>& corners) {
-  double twice = 0;
-  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++)
-    twice += corners[j][0] * corners[i][1] - corners[i][0] * corners[j][1];
-  return std::abs(twice) / 2;
-}
-
-/// Ground under the area of a release [m^2].
+/// Ground under the area of a release [m^2]; 0 where it is of another shape.
 double released_area(const ReleaseSection& release, const HeightField& ground) {
-  Box<2> extent{{release.points[0][0], release.points[0][1]}, {release.points[0][0], release.points[0][1]}};
-  for (const auto& [x, y] : release.points) {
-    extent.lower = extent.lower.cwiseMin(Vec<2>(x, y));
-    extent.upper = extent.upper.cwiseMax(Vec<2>(x, y));
-  }
-  return ground_area(ground, extent, [&](const Vec<2>& place) { return inside(release.points, place[0], place[1]); });
+  if (release.shape != "area") return 0;
+  return ground_area(ground, extent_of(release.points),
+                     [&](const Vec<2>& place) { return inside(release.points, place[0], place[1]); });
 }
 
 double release_volume(const ReleaseSection& release, double width, int dim, const HeightField* ground) {
   if (release.shape == "area") return released_area(release, *ground) * release.thickness;
   if (release.shape == "slab") return release.length * release.thickness * width;
-  if (release.shape == "polygon") return polygon_area(release.points) * width;
+  if (release.shape == "polygon") return area_of(release.points) * width;
   if (release.shape == "box") return box_volume(release.lower, release.upper);
   return (dim == 3 ? 4.0 / 3.0 : 1.0) * std::numbers::pi * std::pow(release.radius, dim);
 }
@@ -83,7 +72,12 @@ double covered_area(const Scene& scene, const HeightField& ground) {
   const double begin = extent.lower[0];
   if (scene.cover->to >= 0) extent.upper[0] = std::min(extent.upper[0], begin + scene.cover->to);
   extent.lower[0] += scene.cover->from;
-  return ground_area(ground, extent, [](const Vec<2>&) { return true; });
+  const std::vector<Outline>& areas = scene.cover->areas;
+  if (areas.empty()) return ground_area(ground, extent, [](const Vec<2>&) { return true; });
+  Box<2> around = extent_of(areas.front());
+  for (const Outline& area : areas) around = hull_of(around, extent_of(area));
+  const Box<2> within{extent.lower.cwiseMax(around.lower), extent.upper.cwiseMin(around.upper)};
+  return ground_area(ground, within, [&](const Vec<2>& place) { return inside_any(areas, place); });
 }
 
 /// Between the highest and the lowest ground inside the domain [m].
@@ -103,6 +97,7 @@ double typical_fall(const Scene& scene, const HeightField* ground) {
   if (scene.terrain) return (scene.terrain->shape == "polyline" ? height : scene.terrain->drop) / 4;
   double top = bottom;
   for (const ReleaseSection& release : scene.release) {
+    if (release.shape == "area") continue;
     if (release.shape == "box") top = std::max(top, release.upper.back());
     if (release.shape == "ball") top = std::max(top, release.center.back() + release.radius);
     for (const auto& corner : release.points) top = std::max(top, corner[1]);
@@ -164,14 +159,19 @@ Plan plan_scene(const Scene& scene) {
   const HeightField* const field = ground ? ground->height_field() : nullptr;
   if (scene.dense_flow) {
     const double particle = std::pow(scene.dense_flow->spacing(), scene.scene.dim);
-    for (const ReleaseSection& release : scene.release)
-      plan.n_release += std::round(release_volume(release, width, scene.scene.dim, field) / particle);
+    for (const ReleaseSection& release : scene.release) {
+      const double volume = release_volume(release, width, scene.scene.dim, field);
+      if (field != nullptr) plan.release_area += released_area(release, *field);
+      plan.release_volume += volume;
+      plan.n_release += std::round(volume / particle);
+    }
     if (scene.cover && field != nullptr) {
-      plan.n_cover = std::ceil(covered_area(scene, *field) * scene.cover->depth / particle);
+      plan.cover_area = covered_area(scene, *field);
     } else if (scene.cover && scene.terrain) {
       const double end = scene.cover->to >= 0 ? scene.cover->to : ground_length(*scene.terrain, upper[0]);
-      plan.n_cover = std::ceil(std::max(0.0, end - scene.cover->from) * scene.cover->depth * width / particle);
+      plan.cover_area = std::max(0.0, end - scene.cover->from) * width;
     }
+    if (scene.cover) plan.n_cover = std::ceil(plan.cover_area * scene.cover->depth / particle);
   }
   if (scene.suspension) {
     plan.n_cells = 1;

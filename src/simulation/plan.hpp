@@ -10,9 +10,12 @@ namespace spindrift {
 
 /// Counts are doubles, so that the absurd stays a number.
 struct Plan {
-  double n_release = 0;      ///< dense particles at the start
-  double n_cover = 0;        ///< cover particles
-  std::vector<double> grid;  ///< cells along each axis; empty without a suspension
+  double n_release = 0;       ///< dense particles at the start
+  double n_cover = 0;         ///< cover particles
+  double release_area = 0;    ///< ground under areas of release [m^2]
+  double release_volume = 0;  ///< of all releases, in 2D a metre broad [m^3]
+  double cover_area = 0;      ///< ground under the cover, in 2D a metre broad [m^2]
+  std::vector<double> grid;   ///< cells along each axis; empty without a suspension
   double n_cells = 0;
   double n_frames = 0;
   double memory = 0;   ///< peak [B], within about a factor of two

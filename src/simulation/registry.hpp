@@ -12,8 +12,9 @@
 namespace spindrift {
 
 /// Where a key's value lives in a Scene.
-using Slot = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<double>*,
-                          std::array<double, 2>*, std::vector<std::array<double, 2>>*>;
+using Slot =
+    std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<double>*, std::array<double, 2>*,
+                 std::vector<std::array<double, 2>>*, std::vector<std::vector<std::array<double, 2>>>*>;
 
 /// Numbers allowed, in SI.
 struct Range {

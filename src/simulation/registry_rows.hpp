@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -15,6 +16,23 @@ template <class T>
 constexpr bool is_optional = false;
 template <class T>
 constexpr bool is_optional<std::optional<T>> = true;
+
+constexpr Range from(double low, double high) {
+  return {low, high, false, false};
+}
+constexpr Range above(double low, double high) {
+  return {low, high, true, false};
+}
+constexpr Range below(double low, double high) {
+  return {low, high, false, true};
+}
+constexpr Range between(double low, double high) {
+  return {low, high, true, true};
+}
+
+inline constexpr double right_angle = std::numbers::pi / 2;
+inline constexpr Range position = from(-1e7, 1e7), extent = above(0, 1e5), speed = from(-1000, 1000),
+                       iterations = from(1, 1e6);
 
 /// A list of sections; lists of numbers and points are values.
 template <class T>
@@ -67,6 +85,9 @@ struct Registry {
   std::vector<Section> sections;
   std::vector<Key> keys;
 };
+
+/// [scene], [domain], [terrain] and [[obstacle]].
+void add_setting(Registry& registry);
 
 /// Adds one section, and its keys one by one; Path leads from the Scene to the section.
 template <auto... Path>

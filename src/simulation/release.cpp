@@ -6,6 +6,7 @@
 
 #include "grid/open_fractions.hpp"
 #include "simulation/ground.hpp"
+#include "simulation/outline.hpp"
 #include "simulation/scene_vectors.hpp"
 #include "sph/sampling.hpp"
 
@@ -13,7 +14,7 @@ namespace spindrift {
 namespace {
 
 /// Distance of (x, z) from the rim of a polygon [m], positive inside.
-double depth_inside(const std::vector<std::array<double, 2>>& corners, double x, double z) {
+double depth_inside(const Outline& corners, double x, double z) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
     const Vec<2> start(corners[j][0], corners[j][1]), edge = Vec<2>(corners[i][0], corners[i][1]) - start;
@@ -25,12 +26,21 @@ double depth_inside(const std::vector<std::array<double, 2>>& corners, double x,
   return inside(corners, x, z) ? nearest : -nearest;
 }
 
-/// Whether the cover lies anywhere from place `from` to `to` along the ground [m].
+/// Whether the cover's extent along the ground reaches into the stretch from place `from` to `to` [m].
 template <int Dim>
 bool covered(const Scene& scene, const Walls<Dim>& walls, double from, double to) {
   if (!scene.cover) return false;
   const double begin = way_begins(walls);
   return to > begin + scene.cover->from && (scene.cover->to < 0 || from < begin + scene.cover->to);
+}
+
+/// Normal distance of the cover's surface from the ground at a place, 0 where there is none [m].
+template <int Dim>
+double cover_at(const Scene& scene, const Walls<Dim>& walls, const Vec<Dim - 1>& place) {
+  if (!covered(scene, walls, place[0], place[0])) return 0;
+  if constexpr (Dim == 3)
+    if (!scene.cover->areas.empty() && !inside_any(scene.cover->areas, place)) return 0;
+  return scene.cover->depth;
 }
 
 template <int Dim>
@@ -44,22 +54,26 @@ Slab slab_of(const Scene& scene, const ReleaseSection& release, const Walls<Dim>
   return slab;
 }
 
-/// The layer that an area of release would be over its whole extent.
-template <int Dim>
-GroundLayer layer_of(const Scene& scene, const ReleaseSection& release, const Walls<Dim>& walls) {
+/// The snow of an area of release: on the cover where there is some, on the ground elsewhere.
+Particles<3> sampled_area(const Scene& scene, const ReleaseSection& release, const Walls<3>& walls,
+                          const SnowKind<3>& kind) {
   GroundLayer layer;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto before = [k](const auto& a, const auto& b) { return a[k] < b[k]; };
-    const auto [least, most] = std::minmax_element(release.points.begin(), release.points.end(), before);
-    const auto axis = static_cast<Eigen::Index>(k);
-    layer.extent.lower[axis] = (*least)[k], layer.extent.upper[axis] = (*most)[k];
-  }
-  layer.base = covered(scene, walls, layer.extent.lower[0], layer.extent.upper[0]) ? scene.cover->depth : 0;
+  layer.extent = extent_of(release.points);
   layer.thickness = release.thickness;
   layer.spacing = scene.dense_flow->spacing();
   layer.seed = scene.scene.seed;
   if (scene.cover) layer.relaxation_steps = scene.cover->relaxation_steps;
-  return layer;
+  std::vector<double> bases{0};
+  if (scene.cover) bases.push_back(scene.cover->depth);
+  Particles<3> snow;
+  for (const double base : bases) {
+    layer.base = base;
+    const Particles<3> part = sample_area(*walls.terrain->height_field(), layer, kind, [&](const Vec<2>& place) {
+      return inside(release.points, place[0], place[1]) && cover_at(scene, walls, place) == base;
+    });
+    for (std::size_t i = 0; i < part.size(); ++i) snow.push_back_from(part, i);
+  }
+  return snow;
 }
 
 /// Whether x lies inside the release, `margin` [m] or more from the sides of its box or slab.
@@ -72,13 +86,18 @@ bool contains(const Scene& scene, const ReleaseSection& release, const Walls<Dim
     return foot.place[0] > slab.at + margin && foot.place[0] < slab.at + slab.length - margin &&
            foot.distance > slab.base + margin && foot.distance < slab.base + slab.thickness - margin;
   }
-  if (release.shape == "area") {
-    // Areas have their places from the same tile: a margin would let two of them put snow in the same place.
-    const GroundLayer layer = layer_of(scene, release, walls);
-    const Foot<Dim> foot = walls.terrain->foot(x);
-    return foot.distance > layer.base && foot.distance < layer.base + layer.thickness &&
-           inside(release.points, foot.place[0], foot.place[Dim - 2]);
-  }
+  if constexpr (Dim == 3)
+    if (release.shape == "area") {
+      // Areas have their places from the same tile, so that no margin keeps those of two apart.
+      const double reach = release.thickness + (scene.cover ? scene.cover->depth : 0);
+      const Box<2> extent = extent_of(release.points);
+      const Vec<2> around = Vec<2>::Constant(reach);
+      if (!Box<2>{extent.lower - around, extent.upper + around}.contains(x.template head<2>())) return false;
+      const Foot<3> foot = walls.terrain->foot(x, reach);
+      const double base = cover_at(scene, walls, foot.place);
+      return foot.distance > base && foot.distance < base + release.thickness &&
+             inside(release.points, foot.place[0], foot.place[1]);
+    }
   const Box<Dim> box = box_around<Dim>(release, walls);
   const Vec<Dim> rim = Vec<Dim>::Constant(margin);
   if (!Box<Dim>{box.lower + rim, box.upper - rim}.contains(x)) return false;
@@ -90,7 +109,8 @@ template <int Dim>
 bool in_cover(const Scene& scene, const Walls<Dim>& walls, const Vec<Dim>& x, double margin) {
   if (!scene.cover) return false;
   const Foot<Dim> foot = walls.terrain->foot(x);
-  return foot.distance < scene.cover->depth + margin && covered(scene, walls, foot.place[0], foot.place[0]);
+  const double depth = cover_at(scene, walls, foot.place);
+  return depth > 0 && foot.distance < depth + margin;
 }
 
 /// All particles that a release may have: to be looked at one by one.
@@ -99,9 +119,7 @@ Particles<Dim> sampled(const Scene& scene, const ReleaseSection& release, const 
                        const SnowKind<Dim>& kind) {
   if (release.shape == "slab") return sample_slab<Dim>(*walls.terrain, slab_of(scene, release, walls), kind);
   if constexpr (Dim == 3)
-    if (release.shape == "area")
-      return sample_area(*walls.terrain->height_field(), layer_of(scene, release, walls), kind,
-                         [&](const Vec<2>& place) { return inside(release.points, place[0], place[1]); });
+    if (release.shape == "area") return sampled_area(scene, release, walls, kind);
   return sample_box<Dim>(box_around<Dim>(release, walls), kind);
 }
 
@@ -158,16 +176,6 @@ void for_each_filled(const SmokeSection& shape, const Suspension<Dim>& suspensio
 }
 
 }  // namespace
-
-bool inside(const std::vector<std::array<double, 2>>& corners, double x, double z) {
-  bool in = false;
-  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
-    const auto& [xi, zi] = corners[i];
-    const auto& [xj, zj] = corners[j];
-    if ((zi > z) != (zj > z) && x < xi + (xj - xi) * (z - zi) / (zj - zi)) in = !in;
-  }
-  return in;
-}
 
 template <int Dim>
 ReleasedSnow<Dim> released_snow(const Scene& scene, const Walls<Dim>& walls) {

@@ -3,7 +3,6 @@
 /// coming.
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -14,9 +13,6 @@
 #include "terrain/walls.hpp"
 
 namespace spindrift {
-
-/// Whether (x, z), or (x, y), lies inside a polygon, by the even-odd rule.
-bool inside(const std::vector<std::array<double, 2>>& corners, double x, double z);
 
 /// The box around a release, or smoke, that does not lie on the ground.
 template <int Dim, class Shaped>

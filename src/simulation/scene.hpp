@@ -62,13 +62,18 @@ struct TerrainSection {
   double cell_size = 1;                       ///< of the grid that a 3D shape is sampled on [m]
   std::vector<std::array<double, 2>> points;  ///< vertices (x, z) [m] (polyline)
   std::string file;                           ///< of the points, empty once they are read, or of the grid's heights
+  std::string avaframe;                       ///< folder of an elevation model and its areas, empty once it is read
 
   bool is_field() const { return std::find(field_shapes.begin(), field_shapes.end(), shape) != field_shapes.end(); }
 };
 
-/// Something solid: an axis-aligned box.
+/// Something solid: an axis-aligned box, or ground that is raised.
 struct ObstacleSection {
-  std::vector<double> lower, upper;  ///< corners [m]
+  std::string shape = "box";                  ///< "box" | "area": on a 3D ground
+  std::vector<double> lower, upper;           ///< corners of the box [m]
+  std::vector<std::array<double, 2>> points;  ///< corners (x, y) of the area [m]
+  std::string file;                           ///< of the areas, empty once they are read
+  double height = 5;                          ///< of the area above the ground [m]
 };
 
 /// Snow released at the start, on a lattice of the particle spacing.
@@ -83,6 +88,7 @@ struct ReleaseSection {
   std::vector<double> center;                 ///< of the ball [m]
   double radius = 1;                          ///< of the ball [m]
   std::vector<std::array<double, 2>> points;  ///< corners (x, z) of the polygon, (x, y) of the area [m]
+  std::string file;                           ///< of the areas, empty once they are read
   std::vector<double> velocity;               ///< initial velocity [m s^-1], default 0
   double shear = 0;     ///< growth of the velocity along x with height over the snow's foot [s^-1]
   double rotation = 0;  ///< angular velocity about the snow's middle, from x to z [s^-1]
@@ -126,6 +132,9 @@ struct CoverSection {
   double depth = 0.525;      ///< normal to the ground [m]
   double density = 100;      ///< rho_a [kg m^-3]
   double from = 0, to = -1;  ///< extent along the ground [m]; to < 0: its end
+  /// Outlines (x, y) of where it lies on a 3D ground [m]; none: everywhere.
+  std::vector<std::vector<std::array<double, 2>>> areas;
+  std::string file;  ///< of the areas, empty once they are read
   int relaxation_steps = 40;
 };
 

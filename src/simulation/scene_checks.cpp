@@ -27,8 +27,13 @@ class Checker {
     if (scene_.terrain) check_ground(scene_, places_, report_);
     for (std::size_t i = 0; i < scene_.obstacle.size(); ++i) {
       const std::string section = numbered("obstacle", i, scene_.obstacle.size());
-      corners(section, scene_.obstacle[i].lower, scene_.obstacle[i].upper);
+      if (scene_.obstacle[i].shape == "box")
+        corners(section, scene_.obstacle[i].lower, scene_.obstacle[i].upper);
+      else
+        area(section + ".shape", section + ".points", scene_.obstacle[i].points);
     }
+    if (scene_.cover)
+      for (const auto& outline : scene_.cover->areas) area("cover.areas", "cover.areas", outline);
     for (std::size_t i = 0; i < scene_.release.size(); ++i)
       release(numbered("release", i, scene_.release.size()), scene_.release[i]);
     for (std::size_t i = 0; i < scene_.smoke.size(); ++i)
@@ -120,6 +125,16 @@ class Checker {
       for (double& x : most) x += shaped.radius;
       if (report_.good({section + ".radius"})) inside_domain(center, least, most, axes);
     }
+  }
+
+  /// An outline seen from above on 3D ground, for which the key `cause` asks.
+  void area(const std::string& cause, const std::string& points, const std::vector<std::array<double, 2>>& outline) {
+    if (!report_.good({cause, points, "scene.dim"})) return;
+    check_area_ground(cause, scene_, places_, report_);
+    if (outline.size() < 3)
+      return add(points, fmt::format("got {} points, expected at least 3 (x, y)", outline.size()));
+    for (const auto& [x, y] : outline) inside_domain(points, {x, y}, {x, y}, {0, 1});
+    check_area(points, outline, scene_, places_, report_);
   }
 
   /// The extent of something lies in the domain, whose axis axes[k] is its k-th; says so if not.

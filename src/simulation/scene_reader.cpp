@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
-#include "io/esri_grid.hpp"
+#include "io/elevation_model.hpp"
 #include "io/point_file.hpp"
+#include "simulation/avaframe.hpp"
+#include "simulation/grid_domain.hpp"
+#include "simulation/map_sections.hpp"
 #include "simulation/registry.hpp"
 #include "simulation/scene_checks.hpp"
 #include "simulation/scene_report.hpp"
@@ -39,12 +43,13 @@ class Reader {
     check_version();
     for (const TomlMember& member : document_)
       if (member.name != "schema_version") visit(member, {member.name, member.name, 0});
-    if (!places_.contains("domain") && report_.good({"domain"}))
-      report_.add({}, "domain", "missing, expected a section [domain]");
     assign_if([](const Key& key) { return key.section() == "scene"; });
     take_defaults();
     assign_if([](const Key& key) { return key.section() != "scene"; });
-    read_terrain_file(folder);
+    AvaframeFolder maps = read_avaframe(folder);
+    read_terrain_file(folder, maps.elevation);
+    find_domain();
+    read_maps(scene_, places_, report_, folder, maps);
     count_layers();
     derive(default_name);
     check_scene(scene_, places_, report_);
@@ -189,8 +194,53 @@ class Reader {
                 fmt::format("contradicts {} at {}: leave out one", other, report_.text_of(place_of(places_, other))));
   }
 
+  /// Finds the files of terrain.avaframe, and makes the release whose areas they tell where the scene has none.
+  AvaframeFolder read_avaframe(const std::filesystem::path& folder) {
+    const std::string path = "terrain.avaframe";
+    if (!scene_.terrain || scene_.terrain->avaframe.empty() || !report_.good({path})) return {};
+    const auto give_up = [&] {
+      for (const char* section : {"terrain", "release", "domain", "cover"}) report_.suspect(section);
+      return AvaframeFolder{};
+    };
+    std::vector<std::string> others = {"terrain.file", "terrain.points", "release.points",
+                                       "release.file", "release.at",     "release[1]"};
+    if (scene_.terrain->shape != "grid") others.push_back("terrain.shape");
+    if (!scene_.release.empty() && scene_.release[0].shape != "area") others.push_back("release.shape");
+    for (const std::string& other : others)
+      if (places_.contains(other)) return contradict(path, other), give_up();
+    AvaframeFolder found;
+    try {
+      if (scene_.scene.dim != 3) throw AvaframeError("needs scene.dim = 3");
+      found = find_avaframe(folder / std::exchange(scene_.terrain->avaframe, {}));
+    } catch (const AvaframeError& error) {
+      report_.add(place_of(places_, path), path, error.what());
+      return give_up();
+    }
+    scene_.terrain->shape = "grid";
+    scene_.terrain->file = found.elevation.string();
+    places_["terrain.file"] = place_of(places_, path);
+    if (scene_.release.empty()) scene_.release.push_back(complete_scene(scene_.scene.preset).release[0]);
+    scene_.release[0].shape = "area";
+    return found;
+  }
+
+  /// The corners of the domain, which may be left out where an elevation model has them. Its sides are open then.
+  void find_domain() {
+    if (!report_.good({"domain", "terrain.file", "terrain.avaframe"})) return;
+    DomainSection& domain = scene_.domain;
+    if (scene_.elevation != nullptr && scene_.scene.dim == 3 && domain.lower.empty() && domain.upper.empty()) {
+      surround(domain, *scene_.elevation);
+      if (!places_.contains("domain.front")) domain.front = "open";
+      if (!places_.contains("domain.back")) domain.back = "open";
+      for (const char* corner : {"domain.lower", "domain.upper"}) places_[corner] = place_of(places_, "terrain.file");
+    } else if (!places_.contains("domain")) {
+      report_.add({}, "domain", "missing, expected a section [domain]");
+    }
+  }
+
   /// Puts what stands in terrain.file into terrain.points or the scene's elevation model.
-  void read_terrain_file(const std::filesystem::path& folder) {
+  /// model  out, where not told: its path from here
+  void read_terrain_file(const std::filesystem::path& folder, std::filesystem::path& model) {
     constexpr std::string_view path = "terrain.file";
     if (!scene_.terrain || scene_.terrain->file.empty() || !report_.good({path, "terrain.points"})) return;
     const std::string& shape = scene_.terrain->shape;
@@ -203,7 +253,10 @@ class Reader {
     const auto refuse = [&](const std::exception& error) { report_.add(place_of(places_, path), path, error.what()); };
     try {
       if (shape == "grid") {
-        scene_.elevation = std::make_shared<const ElevationGrid>(read_esri_grid(folder / scene_.terrain->file));
+        if (model.empty()) model = folder / scene_.terrain->file;
+        scene_.elevation = std::make_shared<const ElevationGrid>(read_elevation_model(model));
+        if (!std::ranges::any_of(scene_.elevation->z, [](double z) { return !std::isnan(z); }))
+          throw GridFileError(model.string() + ": has no heights, all are holes");
       } else {
         scene_.terrain->points = read_points(folder / std::exchange(scene_.terrain->file, {}));
         places_["terrain.points"] = place_of(places_, path);

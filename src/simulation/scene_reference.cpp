@@ -17,7 +17,7 @@ constexpr std::string_view guide = R"md(# Scene reference
 *Written by `spindrift scene --reference`; a test fails where this page and the program differ.*
 
 A scene is a TOML file. It begins with `schema_version = 1`; `[domain]` with its two corners is the only section that
-must be there. Every other section switches its part of the physics on, with the defaults below for what it leaves out.
+must be there, and an elevation model makes up for it. Every other section switches its part of the physics on, with the defaults below for what it leaves out.
 
 - **Numbers** are SI, or text with a unit: `support_radius = 0.21`, `"21 cm"`, `angle = "38 deg"`, `"2 min"`,
   `"72 km/h"`. A plain angle is in radians.
@@ -33,9 +33,23 @@ must be there. Every other section switches its part of the physics on, with the
   interpolated smoothly; they lie about the middle of the domain's breadth. A box that lies along its slope, with tilted
   `domain.gravity`, gets a `valley` of `angle = 0`.
 - **Elevation models**: `shape = "grid"` with `file = "dem.asc"`, an ESRI ASCII grid with `xllcorner` or `xllcenter`, in
-  any letter case. The scene is told and its results are written in the model's coordinates. Heights must be known all
-  over the domain; the run folder keeps a copy as `terrain.asc`.
+  any letter case; any other ending is read by GDAL, where it is built in, as a GeoTIFF is: north-up, square cells, one
+  band, metres. The scene is told and its results are written in the model's coordinates; the run folder keeps a copy as
+  `terrain.asc`. Where `[domain]` says no corners it goes around all known heights, with open sides. Holes may lie under
+  the domain, but not under a release, cover or obstacle: snow that comes to one leaves.
 - **Snow on 3D grounds**: `shape = "area"`, under a polygon seen from above, with its thickness normal to the ground.
+  `cover.areas` says where cover lies. A hole in a polygon is told by a walk to its first corner, around it, and back on
+  the same line.
+- **Maps**: `file = "rel.shp"` stands for the polygons of a shapefile, GeoJSON or whatever else GDAL knows, holes and
+  all: an area of release, of cover or of obstacle each. Their field `thickness` or `d0`, a number or text, is the
+  release's thickness or the cover's depth, where the scene says none. A polygon off the model, or coordinates of another
+  system (where polygons and model both say theirs), are refused.
+- **Walls and dams**: an `[[obstacle]]` of `shape = "area"` raises the ground by its `height`. Its sides are as steep as
+  a cell of the ground allows; one narrower than a cell gets lower, and keeps its volume.
+- **Folders of AvaFrame**: `terrain.avaframe = "avaKot"` takes the only `.asc` or `.tif` in the folder or its `Inputs/`
+  as elevation model, the shapefiles of `REL/` as releases, and where the scene has `[cover]` those of `ENT/` as its
+  areas. One `[release]` may say what they have in common. On the command line: `--set terrain.avaframe=...`; the path
+  is seen from the scene file.
 - **Presets**: `scene.preset` chooses the defaults: `physical`, measured snow, or `paper`, the constants of the paper.
 - **Mistakes** are told with file, line and column, what was expected and what was probably meant, all at once, before
   anything is written. What can be run but hardly makes sense gets a warning with its reason.
@@ -84,6 +98,9 @@ struct Grouping {
   std::string operator()(const std::vector<double>*) const { return "a vector, each "; }
   std::string operator()(const std::array<double, 2>*) const { return "a pair, each "; }
   std::string operator()(const std::vector<std::array<double, 2>>*) const { return "a list of pairs, each "; }
+  std::string operator()(const std::vector<std::vector<std::array<double, 2>>>*) const {
+    return "a list of lists of pairs, each ";
+  }
   std::string operator()(const void*) const { return ""; }
 };
 

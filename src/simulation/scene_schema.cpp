@@ -48,6 +48,10 @@ struct TypeOf {
   Json operator()(const std::vector<std::array<double, 2>>*) const {
     return {{"type", "array"}, {"items", list(number_schema(key, "number"), 2, 2)}};
   }
+  Json operator()(const std::vector<std::vector<std::array<double, 2>>>*) const {
+    const std::vector<std::array<double, 2>>* const outline = nullptr;
+    return {{"type", "array"}, {"items", (*this)(outline)}};
+  }
 
   static Json list(const Json& item, int least, int most) {
     return {{"type", "array"}, {"items", item}, {"minItems", least}, {"maxItems", most}};

@@ -74,6 +74,13 @@ class Converter {
     field = std::move(points);
   }
 
+  void operator()(const TomlValue& literal, std::vector<std::vector<std::array<double, 2>>>& field) const {
+    std::vector<std::vector<std::array<double, 2>>> outlines;
+    for (const TomlValue& item : as<TomlList>(literal, "a list of outlines, each number "))
+      (*this)(item, outlines.emplace_back());
+    field = std::move(outlines);
+  }
+
  private:
   template <class T>
   static const T& as(const TomlValue& literal, std::string_view each = "") {

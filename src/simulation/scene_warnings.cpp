@@ -118,6 +118,7 @@ class Warner {
     const double least = std::max(of_snow, scene_.suspension ? 2 * scene_.suspension->cell_size : 0);
     for (std::size_t i = 0; i < scene_.obstacle.size(); ++i) {
       const ObstacleSection& obstacle = scene_.obstacle[i];
+      if (obstacle.shape != "box") continue;
       double thickness = obstacle.upper[0] - obstacle.lower[0];
       for (std::size_t k = 1; k < obstacle.lower.size(); ++k)
         thickness = std::min(thickness, obstacle.upper[k] - obstacle.lower[k]);
@@ -182,7 +183,7 @@ class Warner {
   template <int Dim>
   void ground(const Walls<Dim>& walls) {
     constexpr int n = 200;
-    int below = 0, above = 0, all = 0;
+    int below = 0, above = 0, unknown = 0, all = 0;
     Index<Dim> samples;
     samples.fill(walls.terrain->height_field() ? n + 1 : 1);
     samples[0] = n + 1;
@@ -190,12 +191,17 @@ class Warner {
     for_each_index<Dim>(samples, [&](const Index<Dim>& i) {
       Vec<Dim> x = walls.domain.lower;
       for (int axis = 0; axis < up_axis<Dim>; ++axis) x[axis] += walls.domain.size()[axis] * i[axis] / n;
+      ++all;
+      if constexpr (Dim == 3)
+        if (!walls.known.at(x.template head<2>())) return void(++unknown);
       const double z = walls.terrain->height(x);
       below += z < walls.domain.lower[up_axis<Dim>];
       above += z > walls.domain.upper[up_axis<Dim>];
-      ++all;
     });
     const std::string_view whole = walls.terrain->height_field() ? "area" : "length";
+    if (unknown > 0)
+      add("terrain", fmt::format("has no heights under {} % of the domain: snow that comes there leaves",
+                                 std::max(1, 100 * unknown / all)));
     if (below > 0)
       add("terrain", fmt::format("lies below the domain over {} % of its {}: snow leaves there",
                                  std::max(1, 100 * below / all), whole));

@@ -5,6 +5,7 @@
 
 #include "simulation/ground.hpp"
 #include "simulation/initial_flow.hpp"
+#include "simulation/outline.hpp"
 #include "simulation/release.hpp"
 #include "simulation/scene_vectors.hpp"
 #include "sph/sampling.hpp"
@@ -45,8 +46,9 @@ Walls<Dim> make_walls(const Scene& scene) {
   if constexpr (Dim == 3) walls.sides[1] = {side_of(scene.domain.front), side_of(scene.domain.back)};
   walls.sides[up_axis<Dim>] = {side_of(scene.domain.bottom), side_of(scene.domain.top)};
   for (const ObstacleSection& obstacle : scene.obstacle)
-    walls.obstacles.push_back(box_of<Dim>(obstacle.lower, obstacle.upper));
+    if (obstacle.shape == "box") walls.obstacles.push_back(box_of<Dim>(obstacle.lower, obstacle.upper));
   if (scene.terrain) walls.terrain.emplace(make_terrain<Dim>(scene));
+  if (scene.elevation) walls.known = known_ground(scene);
   return walls;
 }
 
@@ -62,6 +64,11 @@ std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls
   if (walls.terrain->height_field()) layer.to = std::min(layer.to, layer.ground_to);
   layer.y = breadth_of(walls.domain);
   layer.depth = scene.cover->depth;
+  if (!scene.cover->areas.empty()) {
+    layer.within = extent_of(scene.cover->areas.front());
+    for (const Outline& area : scene.cover->areas) layer.within = hull_of(layer.within, extent_of(area));
+    layer.accepts = [&areas = scene.cover->areas](const Vec<2>& place) { return inside_any(areas, place); };
+  }
   layer.seed = scene.scene.seed;
   layer.relaxation_steps = scene.cover->relaxation_steps;
   layer.support_radius = scene.dense_flow->support_radius;

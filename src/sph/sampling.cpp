@@ -121,12 +121,14 @@ void lay_on_field(Cover<Dim>& cover, const HeightField& field, const CoverLayer&
                   std::span<const Box<Dim>> obstacles) {
   if constexpr (Dim == 3) {
     cover.in_plan = true;
-    const GroundLayer all{.extent = {{layer.from, layer.y.from}, {layer.to, layer.y.to}},
+    const Vec<2> lower(layer.from, layer.y.from), upper(layer.to, layer.y.to);
+    const GroundLayer all{.extent = {lower.cwiseMax(layer.within.lower), upper.cwiseMin(layer.within.upper)},
                           .thickness = layer.depth,
                           .spacing = kind.spacing,
                           .seed = layer.seed,
                           .relaxation_steps = layer.relaxation_steps};
-    for (const FilledPlace& place : fill_ground(field, all, [](const Vec<2>&) { return true; })) {
+    const auto everywhere = [](const Vec<2>&) { return true; };
+    for (const FilledPlace& place : fill_ground(field, all, layer.accepts ? layer.accepts : everywhere)) {
       if (blocked<Dim>(obstacles, place.position, kind.spacing)) continue;
       append(cover.particles, place.position, kind);
       cover.foot.push_back(place.foot);

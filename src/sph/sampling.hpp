@@ -3,6 +3,7 @@
 /// lattices.
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 
@@ -38,6 +39,10 @@ struct CoverLayer {
   std::uint64_t seed = 1;
   int relaxation_steps = 40;  ///< at most
   double support_radius = 0;  ///< h of the flow above [m]; 0: at most 2 d
+  /// On a height field, which places (x, y) carry it, and a box around all of these [m]; none: all do.
+  std::function<bool(const Vec<2>&)> accepts{};
+  Box<2> within{Vec<2>::Constant(-std::numeric_limits<double>::infinity()),
+                Vec<2>::Constant(std::numeric_limits<double>::infinity())};
 };
 
 /// The cover: pseudo-random places of number density 1/d^Dim in (arc length, y, normal distance), relaxed by mutual

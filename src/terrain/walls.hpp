@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "terrain/known_ground.hpp"
 #include "terrain/obstacle.hpp"
 #include "terrain/terrain.hpp"
 
@@ -19,6 +20,7 @@ struct Walls {
   std::vector<Box<Dim>> obstacles;
   Box<Dim> domain;
   std::array<std::array<Side, 2>, Dim> sides{};  ///< [axis][0 lower, 1 upper]
+  KnownGround known{};                           ///< of a height field in 3D
 
   /// Calls f(distance, normal) for the terrain, for every obstacle and for every closed side nearer than `reach` [m].
   template <class F>
@@ -38,12 +40,13 @@ struct Walls {
     }
   }
 
-  /// Whether x lies beyond an open side.
+  /// Whether x lies beyond an open side, or over ground that is not known.
   bool outside(const Vec<Dim>& x) const {
     for (int axis = 0; axis < Dim; ++axis) {
       if (sides[axis][0] == Side::open && x[axis] < domain.lower[axis]) return true;
       if (sides[axis][1] == Side::open && x[axis] > domain.upper[axis]) return true;
     }
+    if constexpr (Dim == 3) return !known.at(x.template head<2>());
     return false;
   }
 };

@@ -45,6 +45,9 @@ TEST_CASE("A polygon knows its area and what lies inside, holes and all", "[map]
   CHECK(!polygon.contains(3, 3));
   CHECK(!polygon.contains(11, 3));
   CHECK(!polygon.contains(-1, 3));
+  const MapPolygon joined{"", {}, {polygon.one_ring()}, 0};
+  for (double x = -0.75; x < 12; x += 0.5)
+    for (double y = -0.75; y < 12; y += 0.5) CHECK(joined.contains(x, y) == polygon.contains(x, y));
 }
 
 TEST_CASE("Polygons of a GeoJSON file", "[map]") {

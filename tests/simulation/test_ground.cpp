@@ -192,7 +192,8 @@ TEST_CASE("Ground that does not go with its scene is told with its place", "[gro
   says(head + "shape = \"boul\"\n",
        "a.toml:8:9: terrain.shape: got \"boul\", expected \"slope\", \"bumps\", \"cliff\", \"polyline\", \"plane\", "
        "\"parabola\", \"bowl\", \"helix\", \"ridge\", \"cliff_band\", \"valley\" or \"grid\"; did you mean \"bowl\"?");
-  says(head + "shape = \"grid\"\n", "a.toml:7:2: terrain.file: missing, expected the path of an ESRI ASCII grid");
+  says(head + "shape = \"grid\"\n",
+       "a.toml:7:2: terrain.file: missing, expected the path of an elevation model, or terrain.avaframe");
   says(head + "shape = \"grid\"\nfile = \"no.asc\"\n", "a.toml:9:8: terrain.file: there is no file no.asc");
   says(head + "shape = \"ridge\"\nfile = \"no.asc\"\n",
        "a.toml:9:8: terrain.file: needs terrain.shape = \"polyline\" or \"grid\"; it is \"ridge\" at a.toml:8:9");
@@ -216,7 +217,7 @@ TEST_CASE("Ground that does not go with its scene is told with its place", "[gro
        "a.toml:4:9");
 }
 
-TEST_CASE("An elevation model must have heights all over the domain", "[ground]") {
+TEST_CASE("An elevation model lies under the whole domain, and has heights where snow is", "[ground]") {
   const TemporaryFolder folder;
   const fs::path scene = folder.path() / "a.toml", model = folder.path() / "dem.asc";
   write(scene, avalanche("shape = \"grid\"\nfile = \"dem.asc\"\n"));
@@ -229,14 +230,59 @@ TEST_CASE("An elevation model must have heights all over the domain", "[ground]"
                                  "terrain.file at " +
                                  scene.string() + ":10:8, which has heights from 0.5 to 17.5");
   ElevationGrid holed = hill(-2, -2);
-  holed.at(0, 0) = std::nan("");
+  holed.at(0, 0) = holed.at(10, 5) = std::nan("");
   write(model, esri_grid_text(holed));
   CHECK(refusal_of(scene) == "");
   holed.at(6, 5) = holed.at(7, 5) = std::nan("");
   write(model, esri_grid_text(holed));
-  CHECK(refusal_of(scene) == place + "has 2 holes under the domain, the first at (4, 3), expected heights all over it");
+  const std::string release = scene.string() + ":17:10: release.points: ";
+  CHECK(refusal_of(scene) == release + "lies over a hole of the elevation model at (4, 3)");
+  for (double& z : holed.z) z = std::nan("");
+  write(model, esri_grid_text(holed));
+  CHECK(refusal_of(scene) == place + model.string() + ": has no heights, all are holes");
   write(model, esri_grid_text(hill(-2, -2)).substr(0, 300));
   CHECK_THAT(refusal_of(scene), Catch::StartsWith(place + model.string() + ": ends after "));
+}
+
+TEST_CASE("Snow that comes to a hole of the elevation model leaves, and is booked", "[ground]") {
+  const TemporaryFolder folder;
+  ElevationGrid holed = hill(-2, -2);
+  for (int row = 0; row < holed.rows; ++row)
+    for (int column = 8; column < holed.columns; ++column) holed.at(column, row) = std::nan("");
+  write(folder.path() / "dem.asc", esri_grid_text(holed));
+  write(folder.path() / "a.toml", avalanche("shape = \"grid\"\nfile = \"dem.asc\"\n"));
+  const Scene scene = read_scene(folder.path() / "a.toml", {"release.velocity=[30, 0, -20]"});
+  bool told = false;
+  for (const std::string& line : scene_warnings(scene, {}))
+    told = told || line == "warning: terrain: has no heights under 53 % of the domain: snow that comes there leaves";
+  CHECK(told);
+  Simulation<3> simulation(scene);
+  while (simulation.time() < 0.1) simulation.step();
+  CHECK(simulation.masses().n_outflow > 0);
+  CHECK(std::abs(simulation.mass_error()) < 1e-12);
+  for (const Vec<3>& x : simulation.dense()->particles.position) CHECK(x[0] < 5.5);
+}
+
+TEST_CASE("An area of obstacle raises the ground by its height, and keeps its volume where it is narrow", "[ground]") {
+  const auto ground_with = [](const std::string& points) {
+    const std::string text = avalanche("shape = \"plane\"\nstart = [0, 16]\nangle = \"20 deg\"\ncell_size = 0.5\n");
+    const Scene scene = parse_scene(
+        text + (points.empty() ? "" : "[obstacle]\nshape = \"area\"\nheight = 3\npoints = " + points + "\n"), "a.toml");
+    return make_terrain<3>(scene);
+  };
+  const Terrain<3> bare = ground_with(""), wall = ground_with("[[8, 1], [10, 1], [10, 7], [8, 7]]");
+  const auto raised = [&](const Terrain<3>& ground, double x, double y) {
+    return ground.height({x, y, 0}) - bare.height({x, y, 0});
+  };
+  CHECK(raised(wall, 9, 4) == Approx(3));
+  CHECK(raised(wall, 6.9, 4) == Approx(0).margin(1e-12));
+  CHECK(raised(wall, 11.1, 4) == Approx(0).margin(1e-12));
+  const Terrain<3> narrow = ground_with("[[8, 1], [8.2, 1], [8.2, 7], [8, 7]]");
+  double volume = 0;
+  for (double x = 5.05; x < 12; x += 0.1)
+    for (double y = 0.05; y < 8; y += 0.1) volume += 0.01 * raised(narrow, x, y);
+  CHECK(volume == Approx(0.2 * 6 * 3).epsilon(0.3));
+  CHECK(raised(narrow, 8, 4) < 3);
 }
 
 TEST_CASE("Ground outside the domain's height is told by its share of the area", "[ground]") {

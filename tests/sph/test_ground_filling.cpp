@@ -86,6 +86,21 @@ TEST_CASE("Cover on hills has the mass of its area and its depth, and lies insid
   CHECK(surface / n == Approx(depth).margin(0.15 * d));
 }
 
+TEST_CASE("A layer of few particles, or thinner than one, has its exact volume in the mean",
+          "[sampling][height_field]") {
+  const double spacing = GENERATE(0.5, 2.0), thickness = GENERATE(0.3, 0.1), slope = GENERATE(0.0, 36.0) * degree;
+  const std::uint64_t seed = GENERATE(1, 7);
+  CAPTURE(spacing, thickness, slope / degree, seed);
+  const double size = 100 * spacing;
+  const Terrain<3> terrain =
+      field([=](double x, double y) { return -std::tan(slope) * (0.8 * x + 0.6 * y); }, spacing * 4);
+  const GroundLayer layer{.extent = {{0, 0}, {size, size}}, .thickness = thickness, .spacing = spacing, .seed = seed};
+  const auto places = fill_ground(*terrain.height_field(), layer, [](const Vec<2>&) { return true; });
+  const double expected = size * size / std::cos(slope) * thickness / std::pow(spacing, 3);
+  CHECK(static_cast<double>(places.size()) == Approx(expected).epsilon(0.01));
+  for (const FilledPlace& place : places) REQUIRE((place.foot.distance > 0 && place.foot.distance < thickness));
+}
+
 TEST_CASE("Cover on a height field is the same again, with any number of threads, and piece by piece",
           "[sampling][height_field]") {
   const Terrain<3> terrain = plane(35 * degree, 0.3);
