@@ -228,6 +228,8 @@ class Reader {
       if (vector.empty()) vector.assign(dim, 0.0);
     };
     for (ReleaseSection& release : scene_.release) zero_unless_said(release.velocity);
+    for (std::size_t i = 0; i < scene_.pylon.size(); ++i)
+      if (scene_.pylon[i].name.empty()) scene_.pylon[i].name = fmt::format("pylon{}", i + 1);
     if (scene_.suspension) zero_unless_said(scene_.suspension->wind);
     if (scene_.suspension) zero_unless_said(scene_.suspension->lid);
   }
