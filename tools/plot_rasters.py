@@ -1,15 +1,22 @@
-#!/usr/bin/env python3
-"""Draws the maps of a 3D run, peaks/*.asc of its folder, on one page: python3 tools/plot_rasters.py RUN [-o PICTURE].
+"""Draws the maps of a 3D run of Spindrift, peaks/*.asc of its folder, on one page.
 
-Needs numpy and matplotlib."""
+    python3 tools/plot_rasters.py runs/slope_3d [-o OUT.png]
+
+Needs numpy and matplotlib.
+"""
+
 import argparse
+import sys
 from pathlib import Path
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
+    matplotlib.use("Agg")  # a file, no window
+    import matplotlib.pyplot as plt
+    import numpy as np
+except ModuleNotFoundError as missing:
+    sys.exit(f"{missing}; ./dev extras installs it for Debian's /usr/bin/python3")
 
 MAPS = {
     "flow_thickness": "peak flow thickness [m]",
