@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/parallel.hpp"
 
 namespace spindrift {
 namespace {
@@ -36,21 +39,64 @@ double GroundSurface<Dim>::distance_over(const Cover<Dim>& cover, const Near& ne
 template <int Dim>
 GroundSurface<Dim>::GroundSurface(const Walls<Dim>& walls, const MacGrid<Dim>& grid, const Cover<Dim>* cover)
     : grid_(grid), reach_((cover ? cover->thickness : 0) + 3 * grid.dx), distance_(grid.nodes()) {
-  for_each_index<Dim>(grid.nodes(), [&](const Index<Dim>& i) {
-    const Vec<Dim> x = grid.node(i);
-    double obstacle_distance = reach_;
-    for (const Box<Dim>& obstacle : walls.obstacles)
-      obstacle_distance = std::min(obstacle_distance, surface_of<Dim>(obstacle, x).distance);
-    distance_[i] = obstacle_distance;
-    if (!walls.terrain) return;
-    const Foot<Dim> foot = walls.terrain->foot(x, reach_);
-    distance_[i] = std::min(foot.distance, obstacle_distance);
-    if (std::abs(foot.distance) < reach_)
-      near_.push_back({flat<Dim>(i, grid.nodes()), foot.distance, obstacle_distance, foot.place, i[0]});
+  look_at(walls, [](const Index<Dim>&) { return true; });
+  if (cover) follow(*cover);
+}
+
+template <int Dim>
+void GroundSurface<Dim>::move_window(const Walls<Dim>& walls, const MacGrid<Dim>& window, const Cover<Dim>* cover) {
+  const Index<Dim> shape = window.nodes(), old_shape = grid_.nodes();
+  Index<Dim> shift;
+  for (int k = 0; k < Dim; ++k) shift[k] = window.lower[k] - grid_.lower[k];
+  const auto moved = [&](Index<Dim> node, int sign) {
+    for (int k = 0; k < Dim; ++k) node[k] += sign * shift[k];
+    return node;
+  };
+  const Field<Dim> old_distance = std::exchange(distance_, Field<Dim>(shape));
+  const std::vector<Near> old_near = std::exchange(near_, {});
+  grid_ = window;
+  for (Near near : old_near) {
+    const Index<Dim> node = moved(unflat<Dim>(near.node, old_shape), -1);
+    if (!inside<Dim>(node, shape)) continue;
+    near.node = flat<Dim>(node, shape), near.column = node[0];
+    near_.push_back(near);
+  }
+  for_each_index<Dim>(shape, [&](const Index<Dim>& node) {
+    const Index<Dim> old = moved(node, 1);
+    if (inside<Dim>(old, old_shape)) distance_[node] = old_distance[old];
   });
+  look_at(walls, [&](const Index<Dim>& node) { return !inside<Dim>(moved(node, 1), old_shape); });
+  if (cover) follow(*cover);
+}
+
+/// Sets distances and near_ at the nodes that are new.
+template <int Dim>
+template <class F>
+void GroundSurface<Dim>::look_at(const Walls<Dim>& walls, F&& is_new) {
+  const Index<Dim> shape = grid_.nodes();
+  Index<Dim> layer = shape;
+  layer[Dim - 1] = 1;
+  std::vector<std::vector<Near>> found(static_cast<std::size_t>(shape[Dim - 1]));
+  const auto look = [&](std::size_t height) {
+    for_each_index<Dim>(layer, [&](Index<Dim> i) {
+      i[Dim - 1] = static_cast<int>(height);
+      if (!is_new(i)) return;
+      const Vec<Dim> x = grid_.node(i);
+      double obstacle_distance = reach_;
+      for (const Box<Dim>& obstacle : walls.obstacles)
+        obstacle_distance = std::min(obstacle_distance, surface_of<Dim>(obstacle, x).distance);
+      distance_[i] = obstacle_distance;
+      if (!walls.terrain) return;
+      const Foot<Dim> foot = walls.terrain->foot(x, reach_);
+      distance_[i] = std::min(foot.distance, obstacle_distance);
+      if (std::abs(foot.distance) < reach_)
+        found[height].push_back({flat<Dim>(i, shape), foot.distance, obstacle_distance, foot.place, i[0]});
+    });
+  };
+  parallel_for(found.size(), look, 1);
+  for (const std::vector<Near>& of_layer : found) near_.insert(near_.end(), of_layer.begin(), of_layer.end());
   std::sort(near_.begin(), near_.end(),
             [](const Near& a, const Near& b) { return a.column != b.column ? a.column < b.column : a.node < b.node; });
-  if (cover) follow(*cover);
 }
 
 template <int Dim>
@@ -63,7 +109,8 @@ std::span<const Span> GroundSurface<Dim>::follow(const Cover<Dim>& cover, std::s
   // A node's cover is read up to two bins aside of its foot, and the foot lies up to the reach of near_ aside of it.
   const double aside = 2 * cover.bin_size + reach_;
   const auto column = [&](double x) {
-    return static_cast<int>(std::clamp(std::floor((x - grid_.origin[0]) / grid_.dx), 0.0, grid_.cells[0] - 1.0));
+    return static_cast<int>(
+        std::clamp(std::floor((x - grid_.origin[0]) / grid_.dx) - grid_.lower[0], 0.0, grid_.cells[0] - 1.0));
   };
   moved_.clear();
   for (const Vec<Dim>& x : places) moved_.push_back({column(x[0] - aside), column(x[0] + aside) + 1});

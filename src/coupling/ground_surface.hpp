@@ -21,6 +21,9 @@ class GroundSurface {
   /// only its sign.
   const Field<Dim>& node_distance() const { return distance_; }
 
+  /// Goes over to another window of the same whole grid.
+  void move_window(const Walls<Dim>& walls, const MacGrid<Dim>& window, const Cover<Dim>* cover);
+
   /// Follows the cover's surface everywhere.
   void follow(const Cover<Dim>& cover);
   /// Follows the cover's surface where snow was taken from `places`. Cost: the nodes near these.
@@ -38,6 +41,8 @@ class GroundSurface {
     int column;                ///< of the node along the first axis
   };
   double distance_over(const Cover<Dim>& cover, const Near& near) const;
+  template <class F>
+  void look_at(const Walls<Dim>& walls, F&& is_new);
 
   MacGrid<Dim> grid_;
   double reach_;  ///< distance up to which nodes follow the surface [m]

@@ -201,7 +201,7 @@ void sweep_axis(FaceField<Dim>& out, const FaceField<Dim>& u, const FaceField<Di
   parallel_for(
       u[Axis].n_rows(),
       [&](std::size_t r) {
-        const Span span = frame.ground.rows(Axis)[r];
+        const Span span = frame.rows[Axis][r];
         if (span.empty()) return;
         const Index<Dim> start = u[Axis].row_start(r);
         double* row = out[Axis].row(r).data();

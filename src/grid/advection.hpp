@@ -19,7 +19,7 @@ using RowSpeeds = std::array<std::vector<double>, Dim>;
 template <int Dim>
 struct AdvectionFrame {
   const MacGrid<Dim>& grid;
-  const Ground<Dim>& ground;      ///< only faces in its rows are looked at
+  const std::array<std::vector<Span>, Dim>& rows;  ///< of each row of faces: only these are looked at, others are 0
   const FaceField<Dim>& carrier;  ///< velocity that carries [m/s], with sane values in the ground's layers
   const RowSpeeds<Dim>& carrier_speed;
   const FaceField<Dim>& flow_area;  ///< only faces with a positive one are advected, the others keep their value
@@ -37,13 +37,18 @@ class VelocityAdvection {
   /// clamped to the values that made u^ (those with a weight). Interpolation is (bi/tri)linear, constant beyond the
   /// domain; stable for any dt. Rows where nothing moves more than a cell (|c| dt <= dx, also in the rows next to them)
   /// read their neighbours in order, with weights instead of look-ups: the same interpolation, several times faster.
-  /// u   in-out: [m/s], on return in the rows of frame.ground
+  /// u   in-out: [m/s]
   /// dt  [s]
   /// Source: paper Sec. 3.1 (stable fluids).
   void advect(FaceField<Dim>& u, const AdvectionFrame<Dim>& frame, double dt, AdvectionScheme scheme);
 
   /// Forgets what lies deep in the ground, see Ground::clear_deep.
   void clear_deep(const Ground<Dim>& ground, int begin, int end);
+  /// Calls f(field) for each of its own fields of velocity, which must be 0 where frames look no more.
+  template <class F>
+  void for_each_buffer(F&& f) {
+    f(forward_), f(result_);
+  }
 
   std::size_t bytes() const;
 

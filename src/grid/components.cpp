@@ -3,6 +3,28 @@
 #include <algorithm>
 
 namespace spindrift {
+namespace {
+
+/// Whether a cell of some kind lies behind an open face of a run's cells.
+template <int Dim>
+bool touches(CellKind wanted, const Index<Dim>& start, int begin, int end, const Field<Dim, CellKind>& kind,
+             const FaceField<Dim>& open) {
+  for (Index<Dim> i = start; begin < end; ++begin) {
+    i[0] = begin;
+    for (int axis = 0; axis < Dim; ++axis) {
+      for (int upper = 0; upper < 2; ++upper) {
+        const Index<Dim> neighbour = shifted<Dim>(i, axis, 2 * upper - 1);
+        if (inside<Dim>(neighbour, kind.shape()) && kind[neighbour] == wanted &&
+            open[axis][shifted<Dim>(i, axis, upper)] > 0) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
 
 template <int Dim>
 Index<Dim> Components<Dim>::row_start(std::size_t row) const {
@@ -80,6 +102,7 @@ void Components<Dim>::find(const Field<Dim, CellKind>& kind, const FaceField<Dim
     Component& component = all_[run.component];
     component.n_cells += static_cast<std::size_t>(run.end - run.begin);
     if (component.reaches_open_side) return;
+    component.reaches_open_side = touches<Dim>(CellKind::still, start, run.begin, run.end, kind, open);
     for (int axis = 0; axis < Dim; ++axis) {
       for (int upper = 0; upper < 2; ++upper) {
         if (sides[axis][upper] != Side::open) continue;
@@ -98,29 +121,6 @@ void Components<Dim>::find(const Field<Dim, CellKind>& kind, const FaceField<Dim
   });
 }
 
-namespace {
-
-/// Whether a core cell lies behind an open face of the run's cells.
-template <int Dim>
-bool touches_core(const Index<Dim>& start, int begin, int end, const Field<Dim, CellKind>& kind,
-                  const FaceField<Dim>& open) {
-  for (Index<Dim> i = start; begin < end; ++begin) {
-    i[0] = begin;
-    for (int axis = 0; axis < Dim; ++axis) {
-      for (int upper = 0; upper < 2; ++upper) {
-        const Index<Dim> neighbour = shifted<Dim>(i, axis, 2 * upper - 1);
-        if (inside<Dim>(neighbour, kind.shape()) && kind[neighbour] == CellKind::core &&
-            open[axis][shifted<Dim>(i, axis, upper)] > 0) {
-          return true;
-        }
-      }
-    }
-  }
-  return false;
-}
-
-}  // namespace
-
 template <int Dim>
 std::size_t mark_pockets(Field<Dim, CellKind>& kind, const FaceField<Dim>& open,
                          const std::array<std::array<Side, 2>, Dim>& sides, Components<Dim>& scratch) {
@@ -131,7 +131,7 @@ std::size_t mark_pockets(Field<Dim, CellKind>& kind, const FaceField<Dim>& open,
   scratch.for_each_run([&](const Index<Dim>& start, const auto& run) {
     std::uint8_t& flag = shut_in[run.component];
     if (all[run.component].reaches_open_side || flag) return;
-    flag = touches_core<Dim>(start, run.begin, run.end, kind, open);
+    flag = touches<Dim>(CellKind::core, start, run.begin, run.end, kind, open);
   });
   const bool closed_domain =
       std::none_of(all.begin(), all.end(), [](const auto& component) { return component.reaches_open_side; });

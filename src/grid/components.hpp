@@ -17,7 +17,7 @@ class Components {
  public:
   struct Component {
     std::size_t n_cells = 0;
-    bool reaches_open_side = false;  ///< through a face with an open fraction > 0
+    bool reaches_open_side = false;  ///< or still air, through a face with an open fraction > 0
   };
   /// Consecutive cells [begin, end) of one row along the first axis.
   struct Run {

@@ -10,12 +10,13 @@
 
 namespace spindrift {
 
-/// Geometry of a uniform staggered grid.
+/// Geometry of a uniform staggered grid, or of a window in one: places of the same cell have the same bits in both.
 template <int Dim>
 struct MacGrid {
-  Vec<Dim> origin = Vec<Dim>::Zero();  ///< lower corner of cell 0 [m]
+  Vec<Dim> origin = Vec<Dim>::Zero();  ///< lower corner of the whole grid [m]
   double dx = 1;                       ///< cell size [m]
   Index<Dim> cells{};                  ///< number of cells along each axis
+  Index<Dim> lower{};                  ///< of the window's first cell in the whole grid
 
   double cell_volume() const { return std::pow(dx, Dim); }
   double face_area() const { return std::pow(dx, Dim - 1); }
@@ -33,25 +34,27 @@ struct MacGrid {
     o[axis] = 0;
     return o;
   }
-  Box<Dim> box() const {
-    Vec<Dim> size;
-    for (int k = 0; k < Dim; ++k) size[k] = dx * cells[k];
-    return {origin, origin + size};
-  }
+  Box<Dim> box() const { return {node({}), node(cells)}; }
   /// The cell that holds x; may lie outside the grid.
   Index<Dim> cell_of(const Vec<Dim>& x) const {
     Index<Dim> i;
-    for (int k = 0; k < Dim; ++k) i[k] = static_cast<int>(std::floor((x[k] - origin[k]) / dx));
+    for (int k = 0; k < Dim; ++k) i[k] = static_cast<int>(std::floor((x[k] - origin[k]) / dx)) - lower[k];
     return i;
   }
 
  private:
   Vec<Dim> point(const Index<Dim>& i, const Vec<Dim>& offset) const {
     Vec<Dim> x;
-    for (int k = 0; k < Dim; ++k) x[k] = origin[k] + dx * (i[k] + offset[k]);
+    for (int k = 0; k < Dim; ++k) x[k] = origin[k] + dx * (lower[k] + i[k] + offset[k]);
     return x;
   }
 };
+
+/// Of two windows in one whole grid.
+template <int Dim>
+bool same_window(const MacGrid<Dim>& a, const MacGrid<Dim>& b) {
+  return a.lower == b.lower && a.cells == b.cells;
+}
 
 /// (Bi/tri)linear interpolation stencil at a position: 2^Dim points and their weights, which sum to 1. At the border
 /// the points are clamped, so a weight may repeat a point. The same stencil gathers and spreads.
@@ -66,7 +69,7 @@ struct Stencil {
     Index<Dim> base;
     Vec<Dim> fraction;
     for (int k = 0; k < Dim; ++k) {
-      const double s = std::clamp((x[k] - grid.origin[k]) / grid.dx - offset[k], 0.0, shape[k] - 1.0);
+      const double s = std::clamp((x[k] - grid.origin[k]) / grid.dx - offset[k] - grid.lower[k], 0.0, shape[k] - 1.0);
       base[k] = std::min(static_cast<int>(s), std::max(shape[k] - 2, 0));
       fraction[k] = s - base[k];
     }

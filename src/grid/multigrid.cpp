@@ -185,7 +185,16 @@ void Multigrid<Dim>::build(const PoissonOperator<Dim>& poisson) {
         finest.layout.size, [=](std::size_t n) { c[n] = static_cast<float>(exact[n]); }, 8192);
   }
   set_diagonal(finest);
-  for (std::size_t depth = 1; depth < levels_.size(); ++depth) coarsen(levels_[depth], levels_[depth - 1]);
+  if (poisson.has_still()) {
+    float* d = finest.inverse_diagonal.data();
+    parallel_for(
+        finest.layout.size, [&](std::size_t n) { d[n] = poisson.is_open(static_cast<std::ptrdiff_t>(n)) ? d[n] : 0; },
+        8192);
+  }
+  for (std::size_t depth = 1; depth < levels_.size(); ++depth) {
+    coarsen(levels_[depth], levels_[depth - 1]);
+    if (poisson.has_still()) keep_unknowns(levels_[depth], levels_[depth - 1]);
+  }
 }
 
 template <int Dim>

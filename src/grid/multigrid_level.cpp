@@ -101,10 +101,30 @@ void coarsen(MultigridLevel<Dim>& coarse, const MultigridLevel<Dim>& fine) {
   set_diagonal(coarse);
 }
 
+template <int Dim>
+void keep_unknowns(MultigridLevel<Dim>& coarse, const MultigridLevel<Dim>& fine) {
+  coarse.layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
+    const RowSpan span = coarse.spans[number];
+    float* even = coarse.inverse_diagonal.data() + coarse.layout.row(start);
+    float* odd = even + coarse.layout.pitch;
+    const int n = std::min(2 * span.end, coarse.layout.cells[0]);
+    for (int i = 2 * span.begin; i < n; ++i) {
+      bool any = false;
+      for_each_fine_row<Dim>(start, fine.layout.cells, [&](const Index<Dim>& row) {
+        const float* d = fine.inverse_diagonal.data() + fine.layout.row(row) + i;
+        any = any || d[0] > 0 || d[fine.layout.pitch] > 0;
+      });
+      if (!any) (i % 2 == 0 ? even : odd)[i / 2] = 0;
+    }
+  });
+}
+
 template struct MultigridLevel<2>;
 template struct MultigridLevel<3>;
 template void set_diagonal<2>(MultigridLevel<2>&);
 template void set_diagonal<3>(MultigridLevel<3>&);
+template void keep_unknowns<2>(MultigridLevel<2>&, const MultigridLevel<2>&);
+template void keep_unknowns<3>(MultigridLevel<3>&, const MultigridLevel<3>&);
 template void coarsen<2>(MultigridLevel<2>&, const MultigridLevel<2>&);
 template void coarsen<3>(MultigridLevel<3>&, const MultigridLevel<3>&);
 

@@ -31,6 +31,10 @@ void set_diagonal(MultigridLevel<Dim>& level);
 template <int Dim>
 void coarsen(MultigridLevel<Dim>& coarse, const MultigridLevel<Dim>& fine);
 
+/// Takes the diagonal from coarse cells all of whose fine cells have none: still air, whose pressure stays 0.
+template <int Dim>
+void keep_unknowns(MultigridLevel<Dim>& coarse, const MultigridLevel<Dim>& fine);
+
 /// The rows of cells that a coarse row covers: f(fine first cell).
 template <int Dim, class F>
 void for_each_fine_row(const Index<Dim>& coarse, const Index<Dim>& fine_cells, F&& f) {

@@ -1,6 +1,7 @@
 #include "grid/poisson_operator.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "core/parallel.hpp"
@@ -49,19 +50,24 @@ void PoissonOperator<Dim>::build(const Field<Dim>& density, const FaceField<Dim>
                                  double cell_volume) {
   find_yields(open, kind, heavy, cell_volume);
   const int n = layout.cells[0];
+  std::atomic<bool> any_still = false;
   layout.for_each_row([&](std::size_t number, const Index<Dim>& start) {
     const auto kinds = kind.row(start);
     const auto rho = density.row(start);
     spans[number] = open_span<Dim>(kinds);
     double* even = resistance_.data() + layout.row(start);
     double* odd = even + layout.pitch;
-    const auto value = [&](int i) { return kinds[i] == CellKind::open ? rho[i] : closed; };
+    if (std::ranges::find(kinds, CellKind::still) != kinds.end()) any_still = true;
+    const auto value = [&](int i) {
+      return kinds[i] == CellKind::open ? rho[i] : kinds[i] == CellKind::still ? 0 : closed;
+    };
     for (int m = 0; m < n / 2; ++m) {
       even[m] = value(2 * m);
       odd[m] = value(2 * m + 1);
     }
     if (n % 2 == 1) even[n / 2] = value(n - 1);
   });
+  has_still_ = any_still;
 
   for (int axis = 0; axis < Dim; ++axis) {
     face_rows<Dim>(layout.cells, axis).for_each_row([&](std::size_t, const Index<Dim>& start) {
@@ -81,13 +87,18 @@ void PoissonOperator<Dim>::build(const Field<Dim>& density, const FaceField<Dim>
       const double* r_odd = r_even + layout.pitch;
       const double* below_even = axis == 0 ? r_odd - 1 : r_even - layout.stride[axis];
       const double* below_odd = axis == 0 ? r_even : r_odd - layout.stride[axis];
+      // Between two still cells, as between an open side and a still one, nothing is conducted.
+      const auto conductance_of = [](double part, double below, double above) {
+        const double resistance = below + above;
+        return 2 * part / (resistance > 0 ? resistance : closed);
+      };
       const int pairs = std::min(end, n_faces / 2);
       for (int m = begin; m < pairs; ++m) {
-        even[m] = 2 * fraction[2 * m] / (below_even[m] + r_even[m]);
-        odd[m] = 2 * fraction[2 * m + 1] / (below_odd[m] + r_odd[m]);
+        even[m] = conductance_of(fraction[2 * m], below_even[m], r_even[m]);
+        odd[m] = conductance_of(fraction[2 * m + 1], below_odd[m], r_odd[m]);
       }
       for (int m = std::max(pairs, begin); m < end; ++m) {
-        even[m] = 2 * m < n_faces ? 2 * fraction[2 * m] / (below_even[m] + r_even[m]) : 0;
+        even[m] = 2 * m < n_faces ? conductance_of(fraction[2 * m], below_even[m], r_even[m]) : 0;
         odd[m] = 0;
       }
     });
@@ -122,6 +133,15 @@ RowSpan PoissonOperator<Dim>::face_span(int axis, const Index<Dim>& start) const
 template <int Dim>
 template <class F>
 double PoissonOperator<Dim>::sum_over_products(const std::vector<double>& x, F&& f) const {
+  if (!has_still_) return sum_over_cells_in_spans(x, f);
+  const double* resistance = resistance_.data();
+  return sum_over_cells_in_spans(x,
+                                 [&](std::ptrdiff_t n, double value) { return f(n, resistance[n] > 0 ? value : 0.0); });
+}
+
+template <int Dim>
+template <class F>
+double PoissonOperator<Dim>::sum_over_cells_in_spans(const std::vector<double>& x, F&& f) const {
   return layout.sum_over_rows([&](std::size_t number, const Index<Dim>& start) {
     double sum = 0;
     for (int parity = 0; parity < 2; ++parity) {
@@ -181,13 +201,14 @@ double PoissonOperator<Dim>::residual(std::vector<double>& y, const std::vector<
 
 template <int Dim>
 bool PoissonOperator<Dim>::is_open(std::ptrdiff_t place) const {
-  return resistance_[static_cast<std::size_t>(place)] < closed;
+  const double resistance = resistance_[static_cast<std::size_t>(place)];
+  return resistance > 0 && resistance < closed;
 }
 
 template <int Dim>
 void PoissonOperator<Dim>::clear_closed(std::vector<double>& x) const {
   parallel_for(
-      layout.size, [&](std::size_t n) { x[n] = resistance_[n] < closed ? x[n] : 0; }, 8192);
+      layout.size, [&](std::size_t n) { x[n] = resistance_[n] > 0 && resistance_[n] < closed ? x[n] : 0; }, 8192);
 }
 
 template <int Dim>

@@ -31,8 +31,8 @@ template <int Dim>
 void merge_yields(std::vector<YieldTerm<Dim>>& yields);
 
 /// (A p)_c = sum_f c_f (p_c - p_neighbour) + y_c p_c,  c_f = open_f / rho_f [m3/kg], zero on faces whose velocity is
-/// given, y_c the yield of the core's faces; beyond an open side p = 0 at half a cell, c_f = 2 open_f / rho_c.
-/// Symmetric; zero rows where a cell is not open. Vectors are in the parity layout.
+/// given, y_c the yield of the core's faces; beyond an open side, and in still air, p = 0 at half a cell, c_f = 2
+/// open_f / rho_c. Symmetric; zero rows where a cell is not open. Vectors are in the parity layout.
 template <int Dim>
 struct PoissonOperator {
   ParityLayout<Dim> layout;
@@ -60,15 +60,22 @@ struct PoissonOperator {
   /// The half columns of a row of faces normal to `axis` that may conduct.
   RowSpan face_span(int axis, const Index<Dim>& start) const;
 
+  /// Whether there was still air at the last build(): cells that conduct to open ones, but are not unknowns.
+  bool has_still() const { return has_still_; }
+
   std::size_t bytes() const;
 
  private:
   template <class F>
   double sum_over_products(const std::vector<double>& x, F&& f) const;
+  template <class F>
+  double sum_over_cells_in_spans(const std::vector<double>& x, F&& f) const;
   void find_yields(const FaceField<Dim>& open, const Field<Dim, CellKind>& kind, std::span<const HeavyCell<Dim>> heavy,
                    double cell_volume);
 
-  std::vector<double> resistance_;  ///< rho of open cells, infinite elsewhere; beyond the sides 0 (open) or infinite
+  /// rho of open cells, 0 of still ones, infinite elsewhere; beyond the sides 0 (open) or infinite
+  std::vector<double> resistance_;
+  bool has_still_ = false;
 };
 
 /// Calls f(axis, face, open neighbour, sign) for the faces of a core cell towards open cells; sign +1: the neighbour

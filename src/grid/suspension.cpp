@@ -29,6 +29,7 @@ Suspension<Dim>::Suspension(const MacGrid<Dim>& grid, const Sides& sides, const 
       core_boundary_(sides) {
   for (std::size_t axis = 0; axis < Dim; ++axis) carrier_speed_[axis].resize(velocity_[axis].n_rows());
   update_active(0, grid_.cells[0]);
+  update_rows();
 }
 
 template <int Dim>
@@ -58,6 +59,7 @@ void Suspension<Dim>::set_kind(const Field<Dim, CellKind>& kind) {
 
 template <int Dim>
 void Suspension<Dim>::save(SuspensionState<Dim>& state) const {
+  state.grid = grid_;
   state.velocity = velocity_;
   state.carrier = carrier_;
   state.carrier_speed = carrier_speed_;
@@ -65,12 +67,15 @@ void Suspension<Dim>::save(SuspensionState<Dim>& state) const {
   state.kind = kind_;
   state.pressure = projection_.guess();
   state.momentum = momentum_;
+  state.still = still_;
   state.disturbed = disturbed_;
   state.kinds_are_old = kinds_are_old_;
 }
 
 template <int Dim>
 void Suspension<Dim>::restore(const SuspensionState<Dim>& state) {
+  SPINDRIFT_CHECK(same_window<Dim>(state.grid, grid_));
+  set_still(state.still);
   velocity_ = state.velocity;
   carrier_ = state.carrier;
   carrier_speed_ = state.carrier_speed;
@@ -81,6 +86,7 @@ void Suspension<Dim>::restore(const SuspensionState<Dim>& state) {
   disturbed_ = state.disturbed;
   kinds_are_old_ = state.kinds_are_old;
   update_active(0, grid_.cells[0]);
+  update_rows();
 }
 
 template <int Dim>
@@ -115,17 +121,19 @@ Vec<Dim> Suspension<Dim>::set_ground(const Field<Dim>& node_distance, std::span<
     ground_.clear_deep(carrier_, begin, end);
     advection_.clear_deep(ground_, begin, end);
     for (std::size_t r = 0; r < kind_.n_rows(); ++r) {
+      const Index<Dim> start = kind_.row_start(r);
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
         CellKind& kind = kind_.row(r)[i];
         if (ground_.volume().row(r)[i] <= 0) {
           kind = CellKind::solid;
         } else if (kind == CellKind::solid) {
-          kind = CellKind::open;
+          kind = still_(shifted<Dim>(start, 0, static_cast<int>(i))) ? CellKind::still : CellKind::open;
         }
       }
     }
     update_active(begin, end);
   }
+  update_rows();
   kinds_are_old_ = true;
   const Vec<Dim> change = momentum_around() - before;
   if (momentum_) *momentum_ += change;
@@ -176,18 +184,36 @@ double Suspension<Dim>::max_speed() const {
 template <int Dim>
 void Suspension<Dim>::start_from_velocity() {
   for (std::size_t axis = 0; axis < Dim; ++axis) {
-    auto& u = velocity_[axis];
+    const auto& u = velocity_[axis];
+    parallel_for(
+        u.n_rows(),
+        [&](std::size_t r) {
+          // Where air is still, both are 0.
+          const Span span = still_.any() ? rows_[axis][r] : Span{0, u.shape()[0]};
+          if (!span.empty())
+            std::copy(u.row(r).begin() + span.begin, u.row(r).begin() + span.end,
+                      carrier_[axis].row(r).begin() + span.begin);
+        },
+        u.rows_per_task());
+  }
+  find_carrier_speeds();
+  disturbed_ = false;
+}
+
+template <int Dim>
+void Suspension<Dim>::find_carrier_speeds() {
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    const auto& u = carrier_[axis];
     parallel_for(
         u.n_rows(),
         [&](std::size_t r) {
           const double* row = u.row(r).data();
-          std::ranges::copy(u.row(r), carrier_[axis].row(r).begin());
+          const Span span = still_.any() ? rows_[axis][r] : Span{0, u.shape()[0]};
           carrier_speed_[axis][r] =
-              max_packs(0, u.shape()[0], [&]<class T>(int i) { return magnitude(load<T>(row + i)); });
+              max_packs(span.begin, span.end, [&]<class T>(int i) { return magnitude(load<T>(row + i)); });
         },
         u.rows_per_task());
   }
-  disturbed_ = false;
 }
 
 /// Rows without smoke, now and at the last call, keep the air's density.

@@ -18,6 +18,7 @@
 #include "grid/inflow.hpp"
 #include "grid/pressure_projection.hpp"
 #include "grid/smoke_transport.hpp"
+#include "grid/still_tiles.hpp"
 
 namespace spindrift {
 
@@ -60,6 +61,7 @@ struct SuspensionBudget {
 /// What steers the steps to come, beside the ground; the rest of Suspension derives from both, or is scratch.
 template <int Dim>
 struct SuspensionState {
+  MacGrid<Dim> grid;
   FaceField<Dim> velocity;
   FaceField<Dim> carrier;        ///< not the velocity where sources have changed that since the last advance()
   RowSpeeds<Dim> carrier_speed;  ///< of before the ground sank
@@ -67,6 +69,7 @@ struct SuspensionState {
   Field<Dim, CellKind> kind;
   std::vector<double> pressure;  ///< PressureProjection::guess()
   std::optional<Vec<Dim>> momentum;
+  StillTiles<Dim> still;
   bool disturbed = false, kinds_are_old = false;
 
   std::size_t bytes() const;
@@ -107,6 +110,20 @@ class Suspension {
   Vec<Dim> set_ground(const Field<Dim>& node_distance, std::span<const Span> columns);
   const Ground<Dim>& ground() const { return ground_; }
 
+  /// What goes with air that is not computed any more.
+  struct Forgotten {
+    Vec<Dim> momentum = Vec<Dim>::Zero();  ///< change of momentum() [kg m s^-1]
+    double smoke = 0;                      ///< [kg]
+  };
+  /// Makes the grid another window of the same whole one: cells of both keep their state, new ones hold still air.
+  /// Between steps.   sides: of the window;   node_distance: as of set_ground(); empty: no ground
+  Forgotten move_window(const MacGrid<Dim>& window, const Sides& sides, const Field<Dim>& node_distance);
+  /// Chooses the cells whose air is not computed: it comes to rest, loses its smoke, and has pressure 0.
+  /// Pre: no wind, sizes of the tiles as of this grid.
+  Forgotten set_still(const StillTiles<Dim>& still);
+  const StillTiles<Dim>& still() const { return still_; }
+  const Sides& sides() const { return sides_; }
+
   /// Faces that the exchange may use, 1 or 0: open, between two open cells or at an open side.
   const FaceField<Dim, unsigned char>& active_faces() const { return active_; }
 
@@ -142,10 +159,12 @@ class Suspension {
   bool at_rest(std::span<const CoreCell<Dim>> cores) const;
   void classify(std::span<CoreCell<Dim>> cores);
   void update_active(int begin, int end);
+  void update_rows();
   void move_smoke(double dt, Stages& stages);
   void carry_velocity(double dt, Stages& stages);
   void project(double dt, double weight, std::span<CoreCell<Dim>> cores, Stages& stages);
   void start_from_velocity();
+  void find_carrier_speeds();
   void reflect(std::span<CoreCell<Dim>> cores, double dt, Stages& stages);
   void set_density();
 
@@ -159,6 +178,8 @@ class Suspension {
   PressureProjection<Dim> projection_;
 
   Ground<Dim> ground_;
+  StillTiles<Dim> still_;
+  std::array<std::vector<Span>, Dim> rows_;  ///< of each row of faces: those of Ground::rows() that are not still
   FaceField<Dim, unsigned char> active_;
   FaceField<Dim> flow_area_;    ///< open area of active faces [m^(Dim-1)], 0 of the others
   FaceField<Dim> carrier_;      ///< divergence-free velocity of the step's start or middle, which carries air and smoke

@@ -70,7 +70,7 @@ void Suspension<Dim>::advance(double dt, std::span<CoreCell<Dim>> cores, Stages&
 template <int Dim>
 void Suspension<Dim>::carry_velocity(double dt, Stages& stages) {
   const auto timed = stages.time("suspension.advection");
-  const AdvectionFrame<Dim> frame{grid_, ground_, carrier_, carrier_speed_, flow_area_};
+  const AdvectionFrame<Dim> frame{grid_, rows_, carrier_, carrier_speed_, flow_area_};
   advection_.advect(velocity_, frame, dt, options_.scheme);
   let_in_ambient_air<Dim>(velocity_, carrier_, flow_area_, grid_, sides_, options_.wind, dt);
 }
@@ -121,8 +121,18 @@ bool Suspension<Dim>::at_rest(std::span<const CoreCell<Dim>> cores) const {
 template <int Dim>
 void Suspension<Dim>::classify(std::span<CoreCell<Dim>> cores) {
   std::ranges::copy(kind_.values(), last_kind_.values().begin());
-  for (std::size_t cell = 0; cell < kind_.size(); ++cell)
-    kind_[cell] = ground_.volume()[cell] > 0 ? CellKind::open : CellKind::solid;
+  parallel_for(
+      kind_.n_rows(),
+      [&](std::size_t r) {
+        const auto kinds = kind_.row(r);
+        const double* volume = ground_.volume().row(r).data();
+        still_.for_each_run(kind_.row_start(r), grid_.cells, [&](Span run, bool still) {
+          const CellKind air = still ? CellKind::still : CellKind::open;
+          for (auto i = static_cast<std::size_t>(run.begin); i < static_cast<std::size_t>(run.end); ++i)
+            kinds[i] = volume[i] > 0 ? air : CellKind::solid;
+        });
+      },
+      kind_.rows_per_task());
   for (const CoreCell<Dim>& core : cores)
     if (kind_[core.cell] == CellKind::open) kind_[core.cell] = CellKind::core;
   if (!cores.empty()) {
@@ -165,17 +175,16 @@ void Suspension<Dim>::update_active(int begin, int end) {
           const auto last = static_cast<std::size_t>(axis == 0 ? end + 1 : end);
           for (auto i = static_cast<std::size_t>(begin); i < last; ++i) {
             const int along = axis == 0 ? static_cast<int>(i) : start[axis];
-            bool on = open[i] > 0;
-            if (along == 0) {
-              on = on && sides_[axis][0] == Side::open;
-            } else {
-              on = on && kind_[cell + i - below] == CellKind::open;
-            }
-            if (along == n) {
-              on = on && sides_[axis][1] == Side::open;
-            } else {
-              on = on && kind_[cell + i] == CellKind::open;
-            }
+            // A cell of air and what lets it through: air, still air, an open side.
+            const CellKind low = along > 0                       ? kind_[cell + i - below]
+                                 : sides_[axis][0] == Side::open ? CellKind::still
+                                                                 : CellKind::solid;
+            const CellKind high = along < n                       ? kind_[cell + i]
+                                  : sides_[axis][1] == Side::open ? CellKind::still
+                                                                  : CellKind::solid;
+            const bool on =
+                open[i] > 0 && ((low == CellKind::open && (high == CellKind::open || high == CellKind::still)) ||
+                                (low == CellKind::still && high == CellKind::open));
             flag[i] = on ? 1 : 0;
             flow[i] = on ? area * open[i] : 0;
           }

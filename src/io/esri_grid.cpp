@@ -147,7 +147,7 @@ class Parser {
 
   void read_heights(ElevationGrid& grid) {
     const double none = header("nodata_value").value_or(-9999);
-    const double as_good_as_none = 1e-6 * std::abs(none);
+    const double as_good_as_none = 5e-6 * std::abs(none);  // half a unit of the last of six digits, or less
     grid.z.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
     std::size_t n = 0;
     for (int row = grid.rows - 1; row >= 0; --row)

@@ -53,6 +53,7 @@ std::vector<Diagnostic> diagnostics(const Simulation<Dim>& s, const Instruments<
   vector("gravity_on_smoke", r.gravity_on_smoke);
   vector("smoke_source", r.smoke_source);
   vector("ground_on_air", r.ground_on_air);
+  vector("forgotten_air", r.forgotten);
   vector("air_core", r.suspension.core);
   vector("air_advection", r.suspension.advection);
   vector("air_smoke_transport", r.suspension.smoke);

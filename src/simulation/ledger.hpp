@@ -44,6 +44,7 @@ struct StepReport {
   Vec<Dim> outflow = Vec<Dim>::Zero();                  ///< with particles that left
   Vec<Dim> smoke_source = Vec<Dim>::Zero();             ///< with smoke from sources, which moves with the air
   Vec<Dim> ground_on_air = Vec<Dim>::Zero();            ///< air that the sinking cover uncovers
+  Vec<Dim> forgotten = Vec<Dim>::Zero();                ///< of slow air that is not computed any more
   SuspensionBudget<Dim> suspension;
 };
 

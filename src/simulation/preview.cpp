@@ -54,6 +54,7 @@ void add_snow(PreviewFrame& frame, const DenseFlow<2>& dense) {
 
 void add_smoke(PreviewFrame& frame, const Suspension<2>& suspension) {
   frame.smoke_shape = suspension.grid().cells;
+  frame.smoke_lower = suspension.grid().box().lower;
   frame.dx = suspension.grid().dx;
   const std::size_t n = count<2>(frame.smoke_shape);
   frame.smoke.resize(n);
@@ -97,6 +98,7 @@ void add_smoke(PreviewFrame& frame, const PictureFrame& stored) {
   const std::array<std::int64_t, 3>& shape = stored.lattice.shape;
   frame.smoke_shape = {static_cast<int>(shape[0]), static_cast<int>(shape[2])};
   frame.dx = stored.lattice.spacing[0];
+  frame.smoke_lower = {stored.lattice.origin[0] - frame.dx / 2, stored.lattice.origin[2] - frame.dx / 2};
   const std::size_t nx = static_cast<std::size_t>(shape[0]), layers = static_cast<std::size_t>(shape[1]);
   for (std::size_t row = 0; row < static_cast<std::size_t>(shape[2]); ++row)
     for (std::size_t i = 0; i < nx; ++i) {
@@ -130,7 +132,7 @@ std::vector<std::byte> PreviewFrame::png() const {
     SmokeField field;
     field.density = smoke;
     field.shape = smoke_shape;
-    field.origin = world.lower;
+    field.origin = smoke_lower;
     field.dx = dx;
     field.solid = solid;
     picture.smoke(field, opaque_smoke);

@@ -23,6 +23,7 @@ struct PreviewFrame {
   std::vector<float> smoke;                   ///< [kg m^-3]; may be empty
   std::vector<std::uint8_t> solid;
   Index<2> smoke_shape{};
+  Vec<2> smoke_lower = Vec<2>::Zero();  ///< lower corner of its grid [m]
   double dx = 1;
   double opaque_smoke = 1;  ///< [kg m^-3]: hides 63 % of what is behind it
 

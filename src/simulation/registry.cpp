@@ -197,6 +197,13 @@ void add_smoke(Registry& r) {
       .plain<&U::moving_core>("moving_core", "the dense core pushes the air aside; false: the paper's rule", "R10");
   Rows<&Scene::suspension, &U::confinement>(r, "suspension.confinement", "vorticity confinement: keeps swirls alive")
       .number<&ConfinementSection::strength>("strength", "", from(0, 100), "epsilon", "Eq. (8)");
+  Rows<&Scene::suspension, &U::tiles>(r, "suspension.tiles",
+                                      "air only where something happens: tiles of 8 x 8 x 8 cells, in 2D 16 x 16, with "
+                                      "smoke, moving air or snow")
+      .number<&TilesSection::margin>("margin", "", from(1, 100), "tiles that are kept around those")
+      .number<&TilesSection::still_speed>("still_speed", "m/s", from(0, 100), "slower air counts as air at rest")
+      .number<&TilesSection::clear_smoke>("clear_smoke", "kg/m^3", from(0, 100),
+                                          "thinner smoke counts as clear air; it is booked as outflow");
 
   using M = SmokeSection;
   Rows<&Scene::smoke>(r, "smoke", "snow smoke in the air: at the start, or given off; there may be several")

@@ -62,24 +62,6 @@ GroundLayer layer_of(const Scene& scene, const ReleaseSection& release, const Wa
   return layer;
 }
 
-/// The box around a release that does not lie on the ground.
-template <int Dim>
-Box<Dim> box_around(const ReleaseSection& release, const Walls<Dim>& walls) {
-  if (release.shape == "box") return box_of<Dim>(release.lower, release.upper);
-  if (release.shape == "ball") {
-    const Vec<Dim> center = vector_or<Dim>(release.center);
-    return {center - Vec<Dim>::Constant(release.radius), center + Vec<Dim>::Constant(release.radius)};
-  }
-  Box<Dim> box = walls.domain;
-  for (const auto& [k, axis] : {std::pair{0, 0}, std::pair{1, up_axis<Dim>}}) {
-    const auto of_axis = [k = static_cast<std::size_t>(k)](const auto& a, const auto& b) { return a[k] < b[k]; };
-    const auto [least, most] = std::minmax_element(release.points.begin(), release.points.end(), of_axis);
-    box.lower[axis] = (*least)[static_cast<std::size_t>(k)];
-    box.upper[axis] = (*most)[static_cast<std::size_t>(k)];
-  }
-  return box;
-}
-
 /// Whether x lies inside the release, `margin` [m] or more from the sides of its box or slab.
 template <int Dim>
 bool contains(const Scene& scene, const ReleaseSection& release, const Walls<Dim>& walls, const Vec<Dim>& x,
@@ -91,10 +73,11 @@ bool contains(const Scene& scene, const ReleaseSection& release, const Walls<Dim
            foot.distance > slab.base + margin && foot.distance < slab.base + slab.thickness - margin;
   }
   if (release.shape == "area") {
+    // Areas have their places from the same tile: a margin would let two of them put snow in the same place.
     const GroundLayer layer = layer_of(scene, release, walls);
     const Foot<Dim> foot = walls.terrain->foot(x);
-    return foot.distance > layer.base + margin && foot.distance < layer.base + layer.thickness - margin &&
-           depth_inside(release.points, foot.place[0], foot.place[Dim - 2]) > margin;
+    return foot.distance > layer.base && foot.distance < layer.base + layer.thickness &&
+           inside(release.points, foot.place[0], foot.place[Dim - 2]);
   }
   const Box<Dim> box = box_around<Dim>(release, walls);
   const Vec<Dim> rim = Vec<Dim>::Constant(margin);

@@ -2,11 +2,14 @@
 /// What is there when the clock starts: the snow that a scene releases, and smoke in the air; and the smoke that keeps
 /// coming.
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "grid/suspension.hpp"
 #include "simulation/scene.hpp"
+#include "simulation/scene_vectors.hpp"
 #include "sph/particles.hpp"
 #include "terrain/walls.hpp"
 
@@ -14,6 +17,24 @@ namespace spindrift {
 
 /// Whether (x, z), or (x, y), lies inside a polygon, by the even-odd rule.
 bool inside(const std::vector<std::array<double, 2>>& corners, double x, double z);
+
+/// The box around a release, or smoke, that does not lie on the ground.
+template <int Dim, class Shaped>
+Box<Dim> box_around(const Shaped& shaped, const Walls<Dim>& walls) {
+  if (shaped.shape == "box") return box_of<Dim>(shaped.lower, shaped.upper);
+  if (shaped.shape == "ball") {
+    const Vec<Dim> center = vector_or<Dim>(shaped.center);
+    return {center - Vec<Dim>::Constant(shaped.radius), center + Vec<Dim>::Constant(shaped.radius)};
+  }
+  Box<Dim> box = walls.domain;
+  for (const auto& [k, axis] : {std::pair{0, 0}, std::pair{1, up_axis<Dim>}}) {
+    const auto of_axis = [k = static_cast<std::size_t>(k)](const auto& a, const auto& b) { return a[k] < b[k]; };
+    const auto [least, most] = std::minmax_element(shaped.points.begin(), shaped.points.end(), of_axis);
+    box.lower[axis] = (*least)[static_cast<std::size_t>(k)];
+    box.upper[axis] = (*most)[static_cast<std::size_t>(k)];
+  }
+  return box;
+}
 
 /// What became of the particles of one release.
 struct ReleaseCount {

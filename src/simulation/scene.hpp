@@ -133,6 +133,11 @@ struct ConfinementSection {
   double strength = 0.15;  ///< epsilon of vorticity confinement
 };
 
+struct TilesSection {
+  int margin = 1;             ///< [tiles]
+  double still_speed = 0.1;   ///< [m s^-1]
+  double clear_smoke = 1e-3;  ///< [kg m^-3]
+};
 struct SuspensionSection {
   double cell_size = 0.33;            ///< dx [m]
   double air_density = 1.2;           ///< [kg m^-3]
@@ -151,6 +156,7 @@ struct SuspensionSection {
   double initial_speed = 1;           ///< U of all but the wind [m s^-1]
   bool frozen = false;                ///< the air keeps the velocity that it began with
   std::optional<ConfinementSection> confinement;
+  std::optional<TilesSection> tiles;
 };
 
 struct DragSection {

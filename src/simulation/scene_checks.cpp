@@ -35,6 +35,7 @@ class Checker {
       shape(numbered("smoke", i, scene_.smoke.size()), scene_.smoke[i]);
     pylons();
     if (scene_.suspension) lid(*scene_.suspension);
+    if (scene_.suspension && scene_.suspension->tiles) tiles(*scene_.suspension);
     if (scene_.cover && scene_.cover->to >= 0)
       ordered("cover.from", scene_.cover->from, "cover.to", scene_.cover->to, true);
     if (scene_.entrainment)
@@ -156,6 +157,21 @@ class Checker {
   void outside(std::string_view path, double value, std::string_view bound, std::size_t k) {
     add(path, fmt::format("reaches {} along {}, expected it inside the domain, whose {} stands at {}",
                           number_text(value), axis(k), bound, report_.text_of(place_of(places_, bound))));
+  }
+
+  /// Tiles need air that is at rest where nothing happens.
+  void tiles(const SuspensionSection& suspension) {
+    const auto contradicts = [&](std::string_view path, bool moves) {
+      if (moves && report_.good({path}))
+        add("suspension.tiles", fmt::format("contradicts {} at {}: that moves the air everywhere", path,
+                                            report_.text_of(place_of(places_, path))));
+    };
+    const auto any = [](const std::vector<double>& v) {
+      return std::ranges::any_of(v, [](double x) { return x != 0; });
+    };
+    contradicts("suspension.wind", any(suspension.wind));
+    contradicts("suspension.initial_flow", suspension.initial_flow != "wind");
+    contradicts("suspension.lid", any(suspension.lid));
   }
 
   void lid(const SuspensionSection& suspension) {

@@ -96,14 +96,27 @@ std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Di
 }
 
 template <int Dim>
-std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<Dim>& walls) {
-  if (!scene.suspension) return std::nullopt;
-  const SuspensionSection& section = *scene.suspension;
+MacGrid<Dim> make_grid(const Scene& scene, const Walls<Dim>& walls) {
   MacGrid<Dim> grid;
   grid.origin = walls.domain.lower;
-  grid.dx = section.cell_size;
+  grid.dx = scene.suspension->cell_size;
   for (int k = 0; k < Dim; ++k)
-    grid.cells[k] = std::max(1, static_cast<int>(std::lround(walls.domain.size()[k] / section.cell_size)));
+    grid.cells[k] = std::max(1, static_cast<int>(std::lround(walls.domain.size()[k] / grid.dx)));
+  return grid;
+}
+
+template <int Dim>
+std::optional<ActiveTiles<Dim>> make_tiles(const Scene& scene, const Walls<Dim>& walls) {
+  if (!scene.suspension || !scene.suspension->tiles) return std::nullopt;
+  const TilesSection& section = *scene.suspension->tiles;
+  const TileOptions options{section.margin, section.still_speed, section.clear_smoke};
+  return ActiveTiles<Dim>(make_grid<Dim>(scene, walls), walls.sides, options);
+}
+
+template <int Dim>
+Suspension<Dim> make_suspension(const Scene& scene, const Walls<Dim>& walls, const MacGrid<Dim>& grid,
+                                const typename Suspension<Dim>::Sides& sides) {
+  const SuspensionSection& section = *scene.suspension;
   SuspensionOptions<Dim> options;
   options.gravity = make_gravity<Dim>(scene);
   options.air_density = section.air_density;
@@ -119,9 +132,9 @@ std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<D
   options.moving_core = section.moving_core;
   options.frozen = section.frozen;
   options.wind = vector_or<Dim>(section.wind);
-  std::optional<Suspension<Dim>> air(std::in_place, grid, walls.sides, options);
+  Suspension<Dim> air(grid, sides, options);
   if (section.initial_flow != "wind" || !options.wind.isZero())
-    air->set_velocity(initial_flow<Dim>(section, grid, walls));
+    air.set_velocity(initial_flow<Dim>(section, grid, walls));
   return air;
 }
 
@@ -168,7 +181,10 @@ std::optional<EntrainmentOptions> make_entrainment(const Scene& scene) {
   template Walls<Dim> make_walls<Dim>(const Scene&);                                                  \
   template std::optional<Cover<Dim>> make_cover<Dim>(const Scene&, const Walls<Dim>&, std::uint64_t); \
   template std::optional<DenseFlow<Dim>> make_dense_flow<Dim>(const Scene&, const Walls<Dim>&);       \
-  template std::optional<Suspension<Dim>> make_suspension<Dim>(const Scene&, const Walls<Dim>&);
+  template MacGrid<Dim> make_grid<Dim>(const Scene&, const Walls<Dim>&);                              \
+  template std::optional<ActiveTiles<Dim>> make_tiles<Dim>(const Scene&, const Walls<Dim>&);          \
+  template Suspension<Dim> make_suspension<Dim>(const Scene&, const Walls<Dim>&, const MacGrid<Dim>&, \
+                                                const Suspension<Dim>::Sides&);
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

@@ -6,6 +6,7 @@
 #include "coupling/drag_lift.hpp"
 #include "coupling/smoke_exchange.hpp"
 #include "entrainment/entrainment.hpp"
+#include "grid/active_tiles.hpp"
 #include "grid/suspension.hpp"
 #include "simulation/scene.hpp"
 #include "sph/bed_friction.hpp"
@@ -30,9 +31,19 @@ std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls
 template <int Dim>
 std::optional<DenseFlow<Dim>> make_dense_flow(const Scene& scene, const Walls<Dim>& walls);
 
-/// The air as it begins, without smoke; empty without [suspension].
+/// The grid of the whole domain.   Pre: the scene has a suspension.
 template <int Dim>
-std::optional<Suspension<Dim>> make_suspension(const Scene& scene, const Walls<Dim>& walls);
+MacGrid<Dim> make_grid(const Scene& scene, const Walls<Dim>& walls);
+
+/// What chooses the part of the grid that is computed; empty without [suspension.tiles].
+template <int Dim>
+std::optional<ActiveTiles<Dim>> make_tiles(const Scene& scene, const Walls<Dim>& walls);
+
+/// The air as it begins, without smoke.   Pre: the scene has a suspension.
+/// grid, sides: the domain's, or those of a window in it
+template <int Dim>
+Suspension<Dim> make_suspension(const Scene& scene, const Walls<Dim>& walls, const MacGrid<Dim>& grid,
+                                const typename Suspension<Dim>::Sides& sides);
 
 /// Friction of the bed; empty where it acts on nothing.
 std::optional<BedFriction> make_bed_friction(const Scene& scene);

@@ -44,8 +44,15 @@ Simulation<Dim>::Simulation(const Scene& scene)
       walls_(make_walls<Dim>(scene_)),
       dense_(make_dense_flow<Dim>(scene_, walls_)),
       bed_friction_(make_bed_friction(scene_)),
-      suspension_(make_suspension<Dim>(scene_, walls_)),
+      tiles_(make_tiles<Dim>(scene_, walls_)),
       coupling_(make_coupling(scene_)) {
+  if (tiles_) {
+    mark_tiles();
+    const MacGrid<Dim> window = tiles_->window();
+    suspension_ = make_suspension<Dim>(scene_, walls_, window, tiles_->sides(window));
+  } else if (scene_.suspension) {
+    suspension_ = make_suspension<Dim>(scene_, walls_, make_grid<Dim>(scene_, walls_), walls_.sides);
+  }
   cover_ = make_cover<Dim>(scene_, walls_, dense_ ? dense_->particles.size() : 0);
   if (const auto options = make_entrainment(scene_)) entrainment_.emplace(*options);
   if (suspension_ && (walls_.terrain || !walls_.obstacles.empty())) {
@@ -55,6 +62,7 @@ Simulation<Dim>::Simulation(const Scene& scene)
   if (suspension_ && !scene_.smoke.empty()) suspension_->set_smoke_mass(initial_smoke<Dim>(scene_, *suspension_));
   if (suspension_ && std::ranges::any_of(scene_.smoke, [](const SmokeSection& s) { return s.rate > 0; }))
     smoke_source_.emplace(smoke_rate<Dim>(scene_, *suspension_));
+  if (tiles_) suspension_->set_still(tiles_->still(suspension_->grid()));
   if (suspension_ && dense_)
     n_interior_ = interior_number_density<Dim>(dense_->options().spacing, dense_->options().support_radius);
   n_dense_initial_ = dense_ ? dense_->particles.size() : 0;
@@ -71,6 +79,7 @@ void Simulation<Dim>::try_step(const TimeStep& step) {
   report_.dt = dt_ = step.dt;
   report_.limiter = step.limiter;
   report_.n_rejected = std::exchange(back_off_.n_rejected, 0);
+  if (tiles_) follow_cloud();
   predict_velocities();  // gravity: the f of Eq. (2), of the smoke by Eqs. (7)-(9)
   exchange_layers();     // 1: Secs. 4.1, 4.4.1, Eqs. (5), (6), (10)-(13)
   inject_smoke();
@@ -108,6 +117,45 @@ typename Simulation<Dim>::TimeStep Simulation<Dim>::choose_time_step() const {
                             step.limiter, n_steps_ + 1, time_));
   if (back_off_.halvings > 0) step = {step.dt * back_off_.factor(), "rejection"};
   return step;
+}
+
+/// Tiles where something happens or will within the steps to the next look.
+template <int Dim>
+void Simulation<Dim>::mark_tiles() {
+  tiles_->clear();
+  if (dense_)
+    for (const Vec<Dim>& x : dense_->particles.position) tiles_->add(x);
+  for (const SmokeSection& smoke : scene_.smoke)
+    if (!suspension_ || smoke.rate > 0) tiles_->add(box_around<Dim>(smoke, walls_));
+  if (suspension_) tiles_->add(*suspension_);
+  tiles_->add_margin();
+}
+
+/// Lets the computed part of the air's grid go along with what moves.
+template <int Dim>
+void Simulation<Dim>::follow_cloud() {
+  // Nothing crosses half a tile, and so leaves the margin, between two looks.
+  const auto steps_between_looks =
+      static_cast<std::uint64_t>(tile_edge<Dim> / 2 / std::max(1.0, scene_.suspension->cfl));
+  if (n_steps_ % std::max<std::uint64_t>(steps_between_looks, 1) != 0) return;
+  const auto timed = stages_.time("suspension.tiles");
+  mark_tiles();
+  const MacGrid<Dim> window = tiles_->window(suspension_->grid());
+  const auto book = [&](const typename Suspension<Dim>::Forgotten& forgotten) {
+    report_.forgotten += forgotten.momentum;
+    masses_.smoke_outflow += forgotten.smoke;
+  };
+  if (!same_window<Dim>(window, suspension_->grid())) book(move_window(window));
+  book(suspension_->set_still(tiles_->still(window)));
+}
+
+template <int Dim>
+typename Suspension<Dim>::Forgotten Simulation<Dim>::move_window(const MacGrid<Dim>& window) {
+  if (ground_) ground_->move_window(walls_, window, cover_ ? &*cover_ : nullptr);
+  const auto forgotten =
+      suspension_->move_window(window, tiles_->sides(window), ground_ ? ground_->node_distance() : Field<Dim>());
+  if (smoke_source_) smoke_source_.emplace(smoke_rate<Dim>(scene_, *suspension_));
+  return forgotten;
 }
 
 /// Gravity on both media; the later stages add none.
@@ -285,7 +333,9 @@ std::vector<std::pair<std::string, std::size_t>> Simulation<Dim>::memory() const
   if (walls_.terrain) parts.emplace_back("terrain", walls_.terrain->bytes());
   if (dense_) parts.emplace_back("dense_flow", dense_->bytes() + columns_.bytes() + bytes(normal_impulse_));
   if (cover_) parts.emplace_back("cover", cover_->bytes());
-  if (suspension_) parts.emplace_back("suspension", suspension_->bytes() + (ground_ ? ground_->bytes() : 0));
+  if (suspension_)
+    parts.emplace_back("suspension",
+                       suspension_->bytes() + (ground_ ? ground_->bytes() : 0) + (tiles_ ? tiles_->bytes() : 0));
   if (smoke_source_) parts.emplace_back("smoke_source", smoke_source_->bytes());
   if (suspension_ && dense_) parts.emplace_back("core", core_.bytes() + bytes(overlap_));
   if (coupling_)

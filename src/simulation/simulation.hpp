@@ -76,6 +76,9 @@ class Simulation {
   void try_step(const TimeStep& step);
   void go_back();
   TimeStep choose_time_step() const;
+  void follow_cloud();
+  void mark_tiles();
+  typename Suspension<Dim>::Forgotten move_window(const MacGrid<Dim>& window);
   void predict_velocities();
   void exchange_layers();
   void inject_smoke();
@@ -98,6 +101,7 @@ class Simulation {
   std::optional<Cover<Dim>> cover_;
   std::optional<GroundSurface<Dim>> ground_;
 
+  std::optional<ActiveTiles<Dim>> tiles_;
   std::optional<Suspension<Dim>> suspension_;
   std::optional<SmokeSource<Dim>> smoke_source_;
   std::optional<CouplingOptions> coupling_;

@@ -84,8 +84,10 @@ void Simulation<Dim>::restore(const SavedState<Dim>& state) {
   report_ = state.report;
   overlap_ = state.overlap;
   if (dense_) dense_->particles = state.dense;
+  if (entrainment_) cover_ = state.cover;
+  if (suspension_ && !same_window<Dim>(state.suspension->grid, suspension_->grid()))
+    move_window(state.suspension->grid);
   if (entrainment_) {
-    cover_ = state.cover;
     if (ground_) {
       ground_->follow(*cover_);
       suspension_->set_ground(ground_->node_distance());

@@ -103,7 +103,7 @@ TEST_CASE("bash completes commands, options, keys and their words", "[commands]"
   CHECK(completed("spindrift ru") == "run\n");
   CHECK(completed("spindrift run --thr") == "--threads\n");
   CHECK(completed("spindrift run a.toml --set terrain.sh") == "terrain.shape=\n");
-  CHECK(completed("spindrift run a.toml --set terrain.shape=b") == "bumps\n");
+  CHECK(completed("spindrift run a.toml --set terrain.shape=b") == "bumps bowl\n");
   CHECK(completed("spindrift run a.toml --set output.smoke=") == "true false\n");
   CHECK(completed("spindrift scene --preset p") == "physical paper\n");
   CHECK(completed("spindrift run a.toml --set zzz") == "\n");

@@ -25,11 +25,17 @@ cell_size = 1
 initial_speed = 3
 )";
 
+template <int Dim>
+Suspension<Dim> air_of(const Scene& scene) {
+  const Walls<Dim> walls = make_walls<Dim>(scene);
+  return make_suspension<Dim>(scene, walls, make_grid<Dim>(scene, walls), walls.sides);
+}
+
 FaceField<2> flow_of(const std::string& name, const std::vector<std::string>& settings = {}) {
   std::vector<std::string> all = settings;
   all.push_back("suspension.initial_flow=" + name);
   const Scene scene = scene_of(box, all);
-  return make_suspension<2>(scene, make_walls<2>(scene))->velocity();
+  return air_of<2>(scene).velocity();
 }
 
 double largest(const FaceField<2>& u) {
@@ -106,7 +112,7 @@ TEST_CASE("No flow begins through closed sides, nor along y", "[initial_flow]") 
   }
   const Scene scene = scene_of(
       box, {"scene.dim=3", "domain.lower=[-2, 0, 1]", "domain.upper=[6, 3, 5]", "suspension.initial_flow=" + name});
-  const FaceField<3> solid = make_suspension<3>(scene, make_walls<3>(scene))->velocity();
+  const FaceField<3> solid = air_of<3>(scene).velocity();
   for (const double v : solid[1].values()) REQUIRE(v == 0);
   for (const std::size_t axis : {0u, 2u})
     for_each_index<3>(solid[axis].shape(), [&](const Index<3>& face) {

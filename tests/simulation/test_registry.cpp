@@ -231,9 +231,9 @@ TEST_CASE("every key refuses other types and numbers beyond its range", "[regist
 
 TEST_CASE("what a key expects, in words", "[registry]") {
   CHECK(expectation(*find_key("dense_flow.support_radius")) == "a length above 0 and at most 100 m");
-  CHECK(expectation(*find_key("terrain.angle")) == "an angle above 0 and below 90 deg");
+  CHECK(expectation(*find_key("terrain.angle")) == "an angle from 0 and below 90 deg");
   CHECK(expectation(*find_key("dense_flow.solver")) == "\"dfsph\" or \"wcsph\"");
-  CHECK(expectation(*find_key("terrain.shape")) == "\"slope\", \"bumps\", \"cliff\" or \"polyline\"");
+  CHECK(expectation(*find_key("release.shape")) == "\"slab\", \"area\", \"box\", \"ball\" or \"polygon\"");
   CHECK(expectation(*find_key("coupling.min_mass")) == "a number from 0 and below 1");
   CHECK(expectation(*find_key("scene.dim")) == "a whole number from 2 to 3");
   CHECK(expectation(*find_key("output.smoke")) == "true or false");

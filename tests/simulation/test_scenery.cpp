@@ -102,7 +102,7 @@ TEST_CASE("a picture's landscape has the ground under its cover, the snow by kin
     CHECK(static_cast<double>(point.snow) == Approx(0.3).margin(0.05));
     CHECK(static_cast<double>(point.slope_x) == Approx(-std::tan(std::acos(cos_slope))).margin(0.15));
   }
-  const double bare_height = make_walls<3>(scene).terrain->height(3.2);
+  const double bare_height = make_walls<3>(scene).terrain->height({3.2, 0, 0});
   const Index<2> near{static_cast<int>((3.2 - landscape.ground.origin[0]) / landscape.ground.spacing), 5};
   const Vec<3> top = surface.position(near);
   CHECK(top[2] - bare_height + (top[0] - 3.2) * std::tan(std::acos(cos_slope)) == Approx(0.3 / cos_slope).margin(0.06));
