@@ -9,8 +9,10 @@
 #include "commands.hpp"
 #include "counter.hpp"
 #include "export_frame.hpp"
+#include "export_rasters.hpp"
 #include "io/commit.hpp"
 #include "io/frame_files.hpp"
+#include "io/vdb.hpp"
 #include "io/vtk_xml.hpp"
 #include "plain_text.hpp"
 #include "run_folder.hpp"
@@ -22,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ExportArguments {
-  std::string folder, format, output, only;
+  std::string folder, to, output, only, format = "asc";
   std::uint64_t every = 1;
   std::optional<std::uint64_t> frame;
   double smoke_above = 1e-4;
@@ -40,6 +42,7 @@ void require_known(const std::string& what, const std::string& word, const std::
 std::vector<FrameFile> chosen_frames(const ExportArguments& arguments, const std::string& layer) {
   std::vector<FrameFile> files;
   if (!arguments.only.empty() && arguments.only != layer) return files;
+  if (arguments.to == "vdb" && layer != "smoke") return files;
   files = frame_files(arguments.folder, layer);
   std::erase_if(files, [&](const FrameFile& file) {
     return arguments.frame ? file.number != *arguments.frame : file.number % arguments.every != 0;
@@ -67,14 +70,29 @@ Error nothing_chosen(const ExportArguments& arguments) {
                                            arguments.frame.value_or(0), kind, first, last)};
 }
 
+ExitCode export_maps(const ExportArguments& arguments, const fs::path& out) {
+  require_known("--format", arguments.format, {raster_formats.begin(), raster_formats.end()});
+  const std::size_t n = export_rasters(arguments.folder, out, arguments.format);
+  fmt::print(stderr, "{} maps as {}\n", n, arguments.format);
+  fmt::print("{}\n", out.string());
+  return ExitCode::done;
+}
+
 ExitCode export_run(const ExportArguments& arguments) {
-  require_known("--to", arguments.format, {export_formats.begin(), export_formats.end()});
+  std::vector<std::string_view> kinds(frame_formats.begin(), frame_formats.end());
+  kinds.push_back("raster");
+  require_known("--to", arguments.to, kinds);
   if (!arguments.only.empty()) require_known("--only", arguments.only, layers);
+  if (arguments.to == "vdb" && !writes_vdb())
+    throw Error(ExitCode::bad_input,
+                "--to vdb: this build writes no OpenVDB; install libopenvdb-dev, then configure and build again");
   const auto run = read_run_json(arguments.folder);
+  const fs::path out = arguments.output.empty() ? fs::path(arguments.folder) / "export" : fs::path(arguments.output);
+  if (arguments.to == "raster") return export_maps(arguments, out);
   const auto dim = run.find("dim");
   if (dim == run.end() || (*dim != 2 && *dim != 3))
     throw Error(ExitCode::incompatible_file, arguments.folder + "/run.json: expected \"dim\": 2 or 3");
-  const ExportOptions options{arguments.format, dim->get<int>(), arguments.smoke_above};
+  const ExportOptions options{arguments.to, dim->get<int>(), arguments.smoke_above};
 
   std::array<std::vector<FrameFile>, 2> chosen;
   std::size_t n_files = 0;
@@ -82,7 +100,6 @@ ExitCode export_run(const ExportArguments& arguments) {
     n_files += (chosen[k] = chosen_frames(arguments, std::string(layers[k]))).size();
   if (n_files == 0) throw nothing_chosen(arguments);
 
-  const fs::path out = arguments.output.empty() ? fs::path(arguments.folder) / "export" : fs::path(arguments.output);
   make_folder(out);
   double bytes_written = 0;
   {
@@ -118,12 +135,17 @@ void add_export(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("DIR", arguments->folder, "run folder")->required()->type_name("");
   command
-      ->add_option("--to", arguments->format,
+      ->add_option("--to", arguments->to,
                    "csv: tables of numbers, a row a particle or cell\n"
                    "vtk: .vtp, .vti and .pvd, for ParaView before 5.10, VisIt, PyVista, meshio\n"
-                   "ply: point clouds, for Blender, Houdini, MeshLab, CloudCompare")
+                   "ply: point clouds, for Blender, Houdini, MeshLab, CloudCompare\n"
+                   "vdb: volumes of smoke, for Blender, Houdini and renderers\n"
+                   "raster: the maps of a 3D run under AvaFrame's names, for QGIS and AvaFrame")
       ->required()
-      ->type_name("csv|vtk|ply");
+      ->type_name("csv|vtk|ply|vdb|raster");
+  command->add_option("--format", arguments->format, "raster: ESRI ASCII grids or GeoTIFF")
+      ->capture_default_str()
+      ->type_name("asc|tif");
   command->add_option("-o,--output", arguments->output, "where to (default: export/ in the run folder)")
       ->type_name("DIR");
   CLI::Option* every = command->add_option("--every", arguments->every, "every Nth frame")
@@ -136,7 +158,7 @@ void add_export(CLI::App& app, Command& chosen) {
   command->add_option("--only", arguments->only, "particles or smoke alone")->type_name("particles|smoke");
   command
       ->add_option("--smoke-above", arguments->smoke_above,
-                   "csv, ply: leave out cells with no more smoke than this [kg/m^3]; -1: none, for the wind")
+                   "csv, ply, vdb: leave out cells with no more smoke than this [kg/m^3]; -1: none, for the wind")
       ->check(CLI::Number)
       ->capture_default_str()
       ->type_name("DENSITY");

@@ -10,6 +10,7 @@
 #include "io/frame_files.hpp"
 #include "io/lattice_points.hpp"
 #include "io/ply.hpp"
+#include "io/vdb.hpp"
 #include "io/vtk_xml.hpp"
 
 namespace spindrift {
@@ -60,6 +61,7 @@ std::vector<std::byte> exported_particles(const StoredFrame& frame, const Export
 
 std::vector<std::byte> exported_smoke(const StoredFrame& frame, const ExportOptions& options, const fs::path& file) {
   const auto& density = values_of<float>(frame, "density", file);
+  if (options.format == "vdb") return vdb_bytes(frame, options.smoke_above, file.string());
   if (options.format == "vtk") {
     LatticeImage image{*frame.lattice, {}, frame.attributes};
     for (const StoredArray& array : frame.arrays) image.arrays.push_back(array.view());

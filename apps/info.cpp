@@ -19,7 +19,8 @@ std::string_view unit_of(const std::string& path, int dim) {
   if (path.starts_with("stages.") || path == "time" || path.starts_with("dt_m") || path == "wall_seconds") return "s";
   if (path == "front_speed" || path == "front_speed_max") return "m/s";
   if (path == "front_x") return "m along the ground";
-  if (path.starts_with("cloud_height") || path.starts_with("head_")) return "m";
+  if (path == "runout_angle") return "deg";
+  if (path.starts_with("runout") || path.starts_with("cloud_height") || path.starts_with("head_")) return "m";
   if (path.starts_with("memory.") || path == "peak_memory_bytes") return "B";
   return path == "ms_per_step" ? "ms" : "";
 }

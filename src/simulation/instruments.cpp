@@ -6,7 +6,8 @@
 namespace spindrift {
 namespace {
 
-constexpr double head_length = 20;  // [m]: the head is what lies within it of the front
+constexpr double head_length = 20;    // [m]: the head is what lies within it of the front
+constexpr double front_share = 0.99;  // of the mass lies behind the front
 
 struct MassAt {
   double along, mass;
@@ -21,6 +22,12 @@ Vec<Dim> middle_of_mass(const Particles<Dim>& p) {
     mass += p.mass[i];
   }
   return moment / mass;
+}
+
+template <int Dim>
+Vec<Dim> highest(const Particles<Dim>& p) {
+  return *std::max_element(p.position.begin(), p.position.end(),
+                           [](const Vec<Dim>& a, const Vec<Dim>& b) { return a[up_axis<Dim>] < b[up_axis<Dim>]; });
 }
 
 /// Area of the ground, in bins of two spacings, under the particles that `counts` accepts [m^2].
@@ -81,11 +88,12 @@ void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
   if (simulation.dense() && !simulation.dense()->particles.empty()) {
     const Particles<Dim>& p = simulation.dense()->particles;
     const bool on_field = terrain && terrain->height_field();
+    if (!top_) top_ = highest(p);
     if (on_field && !middle_) middle_ = middle_of_mass(p);
     std::vector<MassAt> masses(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) masses[i] = {way(simulation.walls(), p.position[i]), p.mass[i]};
     std::sort(masses.begin(), masses.end(), [](const MassAt& a, const MassAt& b) { return a.along < b.along; });
-    front = percentile(masses, 0.99);
+    front = percentile(masses, front_share);
     samples_.push_back({simulation.time(), front});
     while (samples_.size() > 2 && simulation.time() - samples_[1].time >= speed_window) samples_.pop_front();
     const double elapsed = simulation.time() - samples_.front().time;
@@ -118,6 +126,26 @@ void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
     });
     cloud_height_max = std::max(cloud_height_max, cloud_height);
   }
+}
+
+template <int Dim>
+RunOut Instruments<Dim>::run_out(const Simulation<Dim>& simulation) const {
+  if (!top_ || simulation.dense()->particles.empty()) return {};
+  struct Piece {
+    double away, mass, below;
+  };
+  const Particles<Dim>& p = simulation.dense()->particles;
+  std::vector<Piece> pieces(p.size());
+  double total = 0, sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec<Dim> way = p.position[i] - *top_;
+    pieces[i] = {way.template head<up_axis<Dim>>().norm(), p.mass[i], -way[up_axis<Dim>]};
+    total += p.mass[i];
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.away < b.away; });
+  const auto farthest = std::find_if(pieces.begin(), pieces.end() - 1,
+                                     [&](const Piece& piece) { return (sum += piece.mass) >= front_share * total; });
+  return {farthest->away, farthest->below, std::atan2(farthest->below, farthest->away)};
 }
 
 template struct Instruments<2>;

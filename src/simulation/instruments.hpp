@@ -12,6 +12,13 @@ namespace spindrift {
 /// A cloud is where smoke is denser than this [kg m^-3].
 inline constexpr double cloud_density = 0.1;
 
+/// How far the dense flow came from where it was let go.
+struct RunOut {
+  double distance = 0;  ///< on the level, from the highest snow of the release; 99 % of the mass lie nearer [m]
+  double drop = 0;      ///< from there down to the snow at that distance [m]
+  double angle = 0;     ///< of the energy line between the two, against the level [rad]
+};
+
 template <int Dim>
 struct Instruments {
   static constexpr double sample_interval = 0.1;  ///< [s]
@@ -31,6 +38,9 @@ struct Instruments {
   /// Reads the simulation where the next sample is due.
   void follow(const Simulation<Dim>& simulation);
 
+  /// Of the snow as it stands; zeros where there never was any, or none is left.
+  RunOut run_out(const Simulation<Dim>& simulation) const;
+
  private:
   struct Sample {
     double time, front;
@@ -38,6 +48,7 @@ struct Instruments {
   double way(const Walls<Dim>& walls, const Vec<Dim>& x) const;
 
   std::optional<Vec<Dim>> middle_;  ///< of the snow as it was first seen on a height field
+  std::optional<Vec<Dim>> top_;     ///< highest snow as it was first seen
   std::deque<Sample> samples_;
   double next_ = 0;
 };

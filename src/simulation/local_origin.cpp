@@ -48,6 +48,7 @@ Scene around_local_origin(Scene scene) {
     move(smoke.lower), move(smoke.upper), move(smoke.center);
     move_points(smoke.points, false);
   }
+  for (PylonSection& pylon : scene.pylon) move(pylon.position);
   return scene;
 }
 

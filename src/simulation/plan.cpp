@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "simulation/ground.hpp"
+#include "simulation/map_cells.hpp"
 #include "simulation/outline.hpp"
 
 namespace spindrift {
@@ -22,7 +23,7 @@ namespace {
 // Bytes an item of state, scratch and files, as measured on the paper's 2D scenes.
 constexpr double bytes_per_dense = 1080, bytes_per_cover = 390, bytes_per_cell = 410, bytes_of_program = 33e6;
 constexpr double file_bytes_per_particle = 12, file_bytes_per_cell = 8, bytes_per_picture = 60e3;
-constexpr double bytes_per_diagnostics_row = 800;
+constexpr double bytes_per_diagnostics_row = 800, bytes_per_map_cell = 250;
 // Seconds of one core, as measured.
 constexpr double seconds_per_dense_step = 1.9e-6, seconds_per_cell_step = 5.5e-8, seconds_per_frame = 0.05;
 constexpr double seconds_per_3d_picture = 1, bytes_per_3d_picture = 600e3;  // 1380 px wide
@@ -143,6 +144,10 @@ double number_in(const char* file, const std::string& label = "") {
   return std::numeric_limits<double>::infinity();
 }
 
+double count_of(const ElevationGrid& map) {
+  return static_cast<double>(map.columns) * map.rows;
+}
+
 std::string amount(double bytes) {
   return fmt::format("{:.3g} GB", bytes / 1e9);
 }
@@ -187,6 +192,7 @@ Plan plan_scene(const Scene& scene) {
   plan.memory = bytes_of_program + (ground ? 2.0 * static_cast<double>(ground->bytes()) : 0) +
                 bytes_per_dense * plan.n_release + bytes_per_cover * plan.n_cover + bytes_per_cell * plan.n_cells;
   const bool deep = scene.scene.dim == 3;
+  if (deep && scene.terrain && output.rasters) plan.memory += bytes_per_map_cell * count_of(empty_map(scene));
   const double picture_bytes = !output.preview ? 0 : deep ? bytes_per_3d_picture : bytes_per_picture;
   const double picture_seconds = output.preview && deep ? seconds_per_3d_picture : 0;
   plan.disk = plan.n_frames * ((output.particles ? file_bytes_per_particle * n_particles : 0) +

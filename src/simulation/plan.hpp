@@ -24,6 +24,7 @@ struct Plan {
   double seconds = 0;  ///< of the whole run on all of this machine's cores [s], within about a factor of three
 };
 
+/// Throws Error(would_not_fit): more cells of maps or of ground than can be.
 Plan plan_scene(const Scene& scene);
 
 /// Memory that this process may still use [B]: the machine's, or its control group's if that is less.

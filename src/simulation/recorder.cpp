@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "core/parallel.hpp"
 #include "io/commit.hpp"
@@ -35,8 +36,8 @@ void prepare_folder(const RunOptions& options, const OutputSection& output) {
   };
   try_io([&] {
     fs::create_directories(options.folder);
-    for (const char* part : {"frames", "preview"}) fs::remove_all(options.folder / part);
-    for (const char* part : {"run.json", "particles.hdf.series", "smoke.hdf.series", "preview.mp4"})
+    for (const char* part : {"frames", "preview", "peaks"}) fs::remove_all(options.folder / part);
+    for (const char* part : {"run.json", "particles.hdf.series", "smoke.hdf.series", "preview.mp4", "pylons.csv"})
       fs::remove(options.folder / part);
     if (output.particles || output.smoke) fs::create_directories(options.folder / "frames");
     if (output.preview) fs::create_directories(options.folder / "preview");
@@ -74,6 +75,8 @@ template <int Dim>
 void Recorder<Dim>::follow(const Simulation<Dim>& simulation) {
   instruments_.follow(simulation);
   write_diagnostics(simulation);
+  follow_pylons(simulation);
+  follow_rasters(simulation);
   if (simulation.n_steps() > 0) {
     ++limiters_[std::string(simulation.report().limiter)];
     dt_min_ = simulation.n_steps() == 1 ? simulation.report().dt : std::min(dt_min_, simulation.report().dt);
@@ -101,6 +104,38 @@ void Recorder<Dim>::write_diagnostics(const Simulation<Dim>& simulation) {
 }
 
 template <int Dim>
+void Recorder<Dim>::follow_pylons(const Simulation<Dim>& simulation) {
+  if (simulation.scene().pylon.empty()) return;
+  if (!pylons_) {
+    pylons_.emplace(simulation);
+    pylon_table_.emplace(options_.folder / "pylons.csv", pylons_->headings());
+  }
+  if (const std::vector<double>* row = pylons_->follow(simulation)) pylon_table_->row(*row);
+}
+
+template <int Dim>
+void Recorder<Dim>::follow_rasters(const Simulation<Dim>& simulation) {
+  if constexpr (Dim == 3) {
+    if (!output_.rasters || !simulation.walls().terrain) return;
+    if (!rasters_) {
+      make_folder(options_.folder / "peaks");
+      rasters_.emplace(simulation);
+    }
+    rasters_->follow(simulation);
+  }
+}
+
+template <int Dim>
+void Recorder<Dim>::write_rasters(const Simulation<Dim>& simulation) {
+  if constexpr (Dim == 3) {
+    if (!rasters_) return;
+    writer_.submit([folder = options_.folder / "peaks", rasters = rasters_->maps(simulation)] {
+      for (const Raster& raster : rasters) commit(folder / (raster.name + ".asc"), esri_grid_text(raster.map));
+    });
+  }
+}
+
+template <int Dim>
 void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
   const std::uint64_t number = n_frames_++;
   last_frame_at_ = simulation.n_steps();
@@ -124,8 +159,10 @@ void Recorder<Dim>::write_frame(const Simulation<Dim>& simulation) {
   if (output_.particles && snow) write("particles", particle_series_, snow);
   if (output_.smoke && smoke) write("smoke", smoke_series_, smoke);
   if (output_.preview) draw_preview(simulation, number, std::move(snow), std::move(smoke));
+  write_rasters(simulation);
   writer_.submit([this] { ++n_committed_; });
   diagnostics_->flush();
+  if (pylon_table_) pylon_table_->flush();
   write_summary(simulation, "running", {});
 }
 
@@ -149,8 +186,10 @@ void Recorder<Dim>::keep(const Simulation<Dim>& simulation) {
 
 template <int Dim>
 void Recorder<Dim>::finish(const Simulation<Dim>& simulation, const std::string& status, const std::string& message) {
+  write_rasters(simulation);
   writer_.finish();
   if (diagnostics_) diagnostics_->close();
+  if (pylon_table_) pylon_table_->close();
   write_summary(simulation, status, message);
   write_film();
 }
@@ -212,6 +251,10 @@ void Recorder<Dim>::write_summary(const Simulation<Dim>& s, const std::string& s
   run["front_speed_max"] = instruments_.front_speed_max;
   run["cloud_height"] = instruments_.cloud_height;
   run["cloud_height_max"] = instruments_.cloud_height_max;
+  const RunOut run_out = instruments_.run_out(s);
+  run["runout"] = run_out.distance;
+  run["runout_drop"] = run_out.drop;
+  run["runout_angle"] = run_out.angle * 180 / std::numbers::pi;
   run["head_depth"] = instruments_.head_depth;
   run["head_cloud_height"] = instruments_.head_cloud;
   run["dt_min"] = dt_min_;
@@ -230,6 +273,7 @@ void Recorder<Dim>::write_summary(const Simulation<Dim>& s, const std::string& s
   run["stages"] = stages;
   ordered_json memory = ordered_json::object();
   for (const auto& [part, bytes] : s.memory()) memory[part] = bytes;
+  if (rasters_) memory["rasters"] = rasters_->bytes();
   run["memory"] = memory;
   run["threads"] = n_threads();
   run["peak_memory_bytes"] = peak_memory_bytes();

@@ -14,6 +14,8 @@
 #include "io/csv.hpp"
 #include "io/series.hpp"
 #include "simulation/instruments.hpp"
+#include "simulation/pylons.hpp"
+#include "simulation/rasters.hpp"
 #include "simulation/run.hpp"
 #include "simulation/scenery.hpp"
 
@@ -49,6 +51,9 @@ class Recorder {
   void draw_preview(const Simulation<Dim>& simulation, std::uint64_t number, std::shared_ptr<const ParticleFrame> snow,
                     std::shared_ptr<const SmokeFrame> smoke);
   void write_diagnostics(const Simulation<Dim>& simulation);
+  void follow_pylons(const Simulation<Dim>& simulation);
+  void follow_rasters(const Simulation<Dim>& simulation);
+  void write_rasters(const Simulation<Dim>& simulation);
   void write_summary(const Simulation<Dim>& simulation, const std::string& status, const std::string& message);
   void write_film();
 
@@ -65,6 +70,9 @@ class Recorder {
   double dt_min_ = 0;
   std::optional<CsvWriter> diagnostics_;
   std::vector<double> numbers_;
+  std::optional<Pylons<Dim>> pylons_;
+  std::optional<CsvWriter> pylon_table_;
+  std::optional<Rasters> rasters_;  ///< of 3D runs
   BackgroundWriter writer_;
 };
 

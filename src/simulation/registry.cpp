@@ -181,19 +181,6 @@ void add_rest(Registry& r) {
       .number<&E::friction_strain>("friction_strain", "", from(0, 1e12), "factor on gamma_f; 0: off", "Eq. (14), R14")
       .plain<&E::shared_traction>("shared_traction", "bed friction spares what brings entrained snow up to speed",
                                   "R16");
-
-  using O = OutputSection;
-  Rows<&Scene::output>(r, "output", "what the run folder gets")
-      .number<&O::frames_per_second>("frames_per_second", "1/s", from(0, 1e5),
-                                     "of simulated time; 0: none but the start")
-      .plain<&O::particles>("particles", "write the particles of each frame")
-      .plain<&O::smoke>("smoke", "write the smoke of each frame")
-      .plain<&O::preview>("preview", "draw a picture of each frame")
-      .number<&O::preview_width>("preview_width", "", from(16, 16384),
-                                 "of the pictures, in pixels; in 3D they are 16 to 9")
-      .number<&O::opaque_smoke>(
-          "opaque_smoke", "kg/m^3", above(0, 1e4),
-          "smoke that hides 63 % of what is behind it in the pictures, in 3D behind a metre of it");
 }
 
 const Registry& registry() {
@@ -203,6 +190,7 @@ const Registry& registry() {
     add_snow(r);
     add_smoke(r);
     add_rest(r);
+    add_output(r);
     return r;
   }();
   return table;
@@ -242,6 +230,7 @@ const Key* find_key(std::string_view path) {
 
 bool applies(const Key& key, Scene& scene, std::size_t index) {
   if (scene.scene.dim == 2 && (key.path == "domain.front" || key.path == "domain.back")) return false;
+  if (key.path.starts_with("output.raster")) return scene.scene.dim == 3 && scene.terrain.has_value();
   if (key.condition.name.empty()) return true;
   const Key& word = *find_key(fmt::format("{}.{}", key.section(), key.condition.name));
   const std::string& value = *std::get<std::string*>(word.field(scene, index));

@@ -49,6 +49,7 @@ struct Key {
   std::string_view source;  ///< of the paper or of docs/departures
   Condition condition;      ///< with which it means something
   Slot (*slot)(Scene&, std::size_t);
+  bool in_plan = false;  ///< a vector seen from above: without its last axis
 
   /// Precondition: the section exists, and has more than `index` of its kind.
   Slot field(Scene& scene, std::size_t index = 0) const { return slot(scene, index); }

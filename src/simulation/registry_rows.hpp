@@ -1,5 +1,6 @@
 #pragma once
 /// How the registry's table is put down: sections as paths of members from the Scene on, and their keys one by one.
+/// Included by the files of the table alone.
 
 #include <fmt/format.h>
 
@@ -38,8 +39,8 @@ inline constexpr Range position = from(-1e7, 1e7), extent = above(0, 1e5), speed
 template <class T>
 constexpr bool is_list = false;
 template <class T>
-constexpr bool is_list<std::vector<T>> = requires {
-  &T::lower;
+constexpr bool is_list<std::vector<T>> = std::is_class_v<T> && !requires {
+  typename T::value_type;
 };
 
 /// The member at the end of a path of member pointers, through the sections on the way; `index` in a list of them.
@@ -110,6 +111,13 @@ class Rows {
                std::string_view source = "") {
     return add<Member>(name, unit, range, {}, doc, source);
   }
+  /// Numbers along all axes but the upward one.
+  template <auto Member>
+  Rows& place(std::string_view name, std::string_view doc) {
+    add<Member>(name, "m", position, {}, doc, "");
+    registry_.keys.back().in_plan = true;
+    return *this;
+  }
   template <auto Member>
   Rows& words(std::string_view name, std::vector<std::string_view> allowed, std::string_view doc,
               std::string_view source = "") {
@@ -134,5 +142,8 @@ class Rows {
   std::string_view path_;
   Condition condition_;
 };
+
+/// The part of the table in registry_output.cpp.
+void add_output(Registry& registry);
 
 }  // namespace spindrift

@@ -203,9 +203,18 @@ struct EntrainmentSection {
   bool shared_traction = true;  ///< bed friction spares what brings entrained snow up to speed (R16)
 };
 
+/// An instrument that stands at one place.
+struct PylonSection {
+  std::string name;              ///< of its columns; default: "pylon1", "pylon2", ...
+  std::vector<double> position;  ///< seen from above: (x) in 2D, (x, y) in 3D [m]
+  double height = 1;             ///< over the ground, straight up [m]
+};
+
 struct OutputSection {
   double frames_per_second = 10;
   bool particles = true, smoke = true;
+  bool rasters = true;     ///< in 3D over a terrain
+  double raster_cell = 0;  ///< [m]; 0: the terrain's grid, over a profile two particle spacings
   bool preview = true;
   int preview_width = 1380;  ///< [px]
   /// density that hides 63 % of what is behind it in the pictures, in 3D behind a metre of it [kg m^-3]
@@ -224,6 +233,7 @@ struct Scene {
   std::vector<SmokeSection> smoke;
   std::optional<CouplingSection> coupling;
   std::optional<EntrainmentSection> entrainment;
+  std::vector<PylonSection> pylon;
   OutputSection output;
 
   /// The heights of terrain.file, once they are read, in the coordinates of the file.

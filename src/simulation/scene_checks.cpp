@@ -38,6 +38,7 @@ class Checker {
       release(numbered("release", i, scene_.release.size()), scene_.release[i]);
     for (std::size_t i = 0; i < scene_.smoke.size(); ++i)
       shape(numbered("smoke", i, scene_.smoke.size()), scene_.smoke[i]);
+    pylons();
     if (scene_.suspension) lid(*scene_.suspension);
     if (scene_.suspension && scene_.suspension->tiles) tiles(*scene_.suspension);
     if (scene_.cover && scene_.cover->to >= 0)
@@ -50,17 +51,37 @@ class Checker {
 
  private:
   void names() {
-    const std::string& name = scene_.scene.name;
+    name("scene.name", scene_.scene.name);
+    if (scene_.scene.dim == 2 && report_.good({"scene.dim"}))
+      for (const char* side : {"domain.front", "domain.back"})
+        if (places_.contains(side)) add(side, "a 2D scene has no such side; scene.dim is 2");
+  }
+
+  void name(std::string_view path, const std::string& name) {
     const auto allowed = [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
              c == '-';
     };
     if (name.empty() || name.size() > 64 || name == "." || name == ".." ||
         !std::all_of(name.begin(), name.end(), allowed))
-      add("scene.name", fmt::format("got {}, expected 1 to 64 letters, digits, '.', '_' or '-'", text_of({name, {}})));
-    if (scene_.scene.dim == 2 && report_.good({"scene.dim"}))
-      for (const char* side : {"domain.front", "domain.back"})
-        if (places_.contains(side)) add(side, "a 2D scene has no such side; scene.dim is 2");
+      add(path, fmt::format("got {}, expected 1 to 64 letters, digits, '.', '_' or '-'", text_of({name, {}})));
+  }
+
+  /// Each has a name of its own and stands in the domain.
+  void pylons() {
+    for (std::size_t i = 0; i < scene_.pylon.size(); ++i) {
+      const PylonSection& pylon = scene_.pylon[i];
+      const std::string section = numbered("pylon", i, scene_.pylon.size()), position = section + ".position";
+      name(section + ".name", pylon.name);
+      for (std::size_t j = 0; j < i; ++j)
+        if (scene_.pylon[j].name == pylon.name)
+          add(section + ".name", fmt::format("got {}, as pylon[{}] is called", text_of({pylon.name, {}}), j));
+      if (!report_.good({position, "scene.dim"})) continue;
+      if (pylon.position.empty()) add(position, dim() == 2 ? "missing, expected [x]" : "missing, expected [x, y]");
+      std::vector<std::size_t> axes(pylon.position.size());
+      std::iota(axes.begin(), axes.end(), std::size_t{0});
+      inside_domain(position, pylon.position, pylon.position, axes);
+    }
   }
 
   void sections() {

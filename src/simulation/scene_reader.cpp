@@ -17,6 +17,7 @@
 #include "simulation/map_sections.hpp"
 #include "simulation/registry.hpp"
 #include "simulation/scene_checks.hpp"
+#include "simulation/scene_file.hpp"
 #include "simulation/scene_report.hpp"
 #include "simulation/scene_values.hpp"
 #include "simulation/spelling.hpp"
@@ -281,6 +282,8 @@ class Reader {
       if (vector.empty()) vector.assign(dim, 0.0);
     };
     for (ReleaseSection& release : scene_.release) zero_unless_said(release.velocity);
+    for (std::size_t i = 0; i < scene_.pylon.size(); ++i)
+      if (scene_.pylon[i].name.empty()) scene_.pylon[i].name = fmt::format("pylon{}", i + 1);
     if (scene_.suspension) zero_unless_said(scene_.suspension->wind);
     if (scene_.suspension) zero_unless_said(scene_.suspension->lid);
   }
@@ -292,29 +295,6 @@ class Reader {
   std::vector<Entry> entries_;
 };
 
-/// The file's name without folder and ending, letters that a name may not have turned into '-'.
-std::string name_from(const std::string& file) {
-  std::string name = std::filesystem::path(file).stem().string().substr(0, 64);
-  for (char& c : name)
-    if (!(c >= 'a' && c <= 'z') && !(c >= 'A' && c <= 'Z') && !(c >= '0' && c <= '9') && c != '.' && c != '_') c = '-';
-  return name.empty() || name == "." || name == ".." ? "scene" : name;
-}
-
-[[noreturn]] void refuse(const std::string& file, std::string_view why) {
-  throw Error(ExitCode::bad_input, fmt::format("{}: {}", file, why));
-}
-
-/// The scene beside it whose name is nearest.
-std::string suggest_scene(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return did_you_mean(file.filename().string(), std::vector<std::string_view>(names.begin(), names.end()));
-}
-
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& file, const std::vector<std::string>& settings,
@@ -323,28 +303,17 @@ Scene parse_scene(std::string_view text, const std::string& file, const std::vec
   try {
     reader.emplace(parse_toml(text), file);
   } catch (const SyntaxError& error) {
-    refuse(fmt::format("{}:{}:{}", file, error.place.line, error.place.column),
-           error.why + syntax_hint(text, error.place.line, error.why));
+    throw Error(ExitCode::bad_input, fmt::format("{}:{}:{}: {}{}", file, error.place.line, error.place.column,
+                                                 error.why, syntax_hint(text, error.place.line, error.why)));
   }
   for (const std::string& setting : settings) reader->apply(setting);
-  const Scene scene = reader->read(name_from(file), std::filesystem::path(file).parent_path());
+  const Scene scene = reader->read(scene_name(file), std::filesystem::path(file).parent_path());
   if (origins != nullptr) *origins = reader->origins();
   return scene;
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings, Origins* origins) {
-  constexpr std::size_t most = 4 * 1024 * 1024;
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) refuse(file.string(), "there is no such file" + suggest_scene(file));
-  if (!std::filesystem::is_regular_file(status)) refuse(file.string(), "not a regular file");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
-  if (!stream) refuse(file.string(), "cannot be opened for reading");
-  std::string text(most + 1, '\0');
-  text.resize(std::fread(text.data(), 1, text.size(), stream.get()));
-  if (text.size() > most) refuse(file.string(), "longer than the 4 MB that a scene may have");
-  if (std::ferror(stream.get()) != 0) refuse(file.string(), "cannot be read");
-  return parse_scene(text, file.string(), settings, origins);
+  return parse_scene(scene_text(file), file.string(), settings, origins);
 }
 
 }  // namespace spindrift

@@ -24,8 +24,8 @@ must be there, and an elevation model makes up for it. Every other section switc
 - **Vectors** have as many numbers as the scene has dimensions: `[x, z]` in 2D, `[x, y, z]` in 3D. z points up. Ground
   profiles and polygons are pairs `(x, z)` in both; in 3D they go on along y. Areas of release are pairs `(x, y)`.
 - **2D** is a slice one metre wide: masses are per metre of width.
-- **Several of a kind**: `[[release]]`, `[[obstacle]]` and `[[smoke]]` may stand more than once; a single one may also
-  be written `[release]`. `--set release[1].thickness=3` changes the second of them.
+- **Several of a kind**: `[[release]]`, `[[obstacle]]`, `[[smoke]]` and `[[pylon]]` may stand more than once; a single
+  one may also be written `[release]`. `--set release[1].thickness=3` changes the second of them.
 - **Terrain from a file**: `shape = "polyline"` with `file = "profile.txt"`, one point `x z` [m] a line, x from left to
   right; blanks, commas or semicolons between, `#` begins a comment, a first line of words counts for nothing. The first
   and the last piece go on beyond the points.
@@ -95,7 +95,11 @@ std::string default_text(const Key& key, Scene& scene) {
 }
 
 struct Grouping {
-  std::string operator()(const std::vector<double>*) const { return "a vector, each "; }
+  const Key& key;
+
+  std::string operator()(const std::vector<double>*) const {
+    return key.in_plan ? "a vector without its last axis, each " : "a vector, each ";
+  }
   std::string operator()(const std::array<double, 2>*) const { return "a pair, each "; }
   std::string operator()(const std::vector<std::array<double, 2>>*) const { return "a list of pairs, each "; }
   std::string operator()(const std::vector<std::vector<std::array<double, 2>>>*) const {
@@ -105,7 +109,7 @@ struct Grouping {
 };
 
 std::string taken(const Key& key, Scene& scene) {
-  return std::visit(Grouping{}, key.field(scene)) + expectation(key);
+  return std::visit(Grouping{key}, key.field(scene)) + expectation(key);
 }
 
 std::string meaning(const Key& key) {

@@ -43,7 +43,9 @@ struct TypeOf {
     if (key.words.empty()) return {{"type", "string"}};
     return {{"enum", key.words}};
   }
-  Json operator()(const std::vector<double>*) const { return list(number_schema(key, "number"), 2, 3); }
+  Json operator()(const std::vector<double>*) const {
+    return list(number_schema(key, "number"), key.in_plan ? 1 : 2, key.in_plan ? 2 : 3);
+  }
   Json operator()(const std::array<double, 2>*) const { return list(number_schema(key, "number"), 2, 2); }
   Json operator()(const std::vector<std::array<double, 2>>*) const {
     return {{"type", "array"}, {"items", list(number_schema(key, "number"), 2, 2)}};
@@ -115,8 +117,11 @@ std::string described_defaults(std::string_view preset) {
   std::string text = "schema_version = 1\n";
   for (const Section& section : sections()) {
     // What a scene cannot have without saying where stands there as a comment.
-    const Key* lower = find_key(fmt::format("{}.lower", section.path));
-    const bool whole = !section.repeats || lower == nullptr || !applies(*lower, scene, 0);
+    const auto wanted = [&](const char* name) {
+      const Key* place = find_key(fmt::format("{}.{}", section.path, name));
+      return place != nullptr && applies(*place, scene, 0);
+    };
+    const bool whole = !section.repeats || (!wanted("lower") && !wanted("position"));
     text += fmt::format("\n{}[{}]  # {}\n", whole ? "" : "# ", section.path, section.doc);
     for (const Key& key : keys()) {
       if (key.section() != section.path) continue;

@@ -60,7 +60,9 @@ class Converter {
 
   void operator()(const TomlValue& literal, double& field) const { field = number(literal); }
 
-  void operator()(const TomlValue& literal, std::vector<double>& field) const { field = numbers(literal, dim_); }
+  void operator()(const TomlValue& literal, std::vector<double>& field) const {
+    field = numbers(literal, key_.in_plan ? dim_ - 1 : dim_);
+  }
 
   void operator()(const TomlValue& literal, std::array<double, 2>& field) const {
     const auto list = numbers(literal, 2);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/pylons.hpp"
 #include "simulation/registry.hpp"
 #include "simulation/release.hpp"
 #include "simulation/scene_vectors.hpp"
@@ -49,6 +50,10 @@ class Warner {
       for (std::size_t i = 0; i < count; ++i) {
         const std::string path = numbered(key, i, count);
         if (applies(key, scene, i) || !origins_.contains(path)) continue;
+        if (key.condition.name.empty()) {  // front and back have been refused
+          add(path, "has no effect, maps are made in 3D with a terrain");
+          continue;
+        }
         const std::string word = fmt::format("{}.{}", numbered(key.section(), i, count), key.condition.name);
         add(path,
             fmt::format("has no effect, it belongs to {} = \"{}\"", word, fmt::join(key.condition.values, "\" or \"")));
@@ -153,6 +158,7 @@ class Warner {
     const Walls<Dim> walls = make_walls<Dim>(scene_);
     if (walls.terrain) ground(walls);
     if (scene_.suspension) wind(walls);
+    pylons(walls);
     if (!scene_.dense_flow) return;
     const std::vector<ReleaseCount> counts = released_snow<Dim>(scene_, walls).releases;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -178,6 +184,13 @@ class Warner {
       if (wind[axis] != 0 && !scene_.suspension->frozen &&
           walls.sides[static_cast<std::size_t>(axis)][wind[axis] > 0 ? 0 : 1] == Side::closed)
         add("suspension.wind", "comes through a closed side of the domain: it will die down");
+  }
+
+  template <int Dim>
+  void pylons(const Walls<Dim>& walls) {
+    for (std::size_t i = 0; i < scene_.pylon.size(); ++i)
+      if (pylon_place<Dim>(scene_.pylon[i], walls)[up_axis<Dim>] > walls.domain.upper[up_axis<Dim>])
+        add(numbered("pylon", i, scene_.pylon.size()), "stands out of the domain's top: it feels the air below that");
   }
 
   template <int Dim>

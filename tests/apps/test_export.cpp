@@ -55,7 +55,7 @@ TEST_CASE("what cannot be exported is told with what was expected, and nothing i
   const auto row = GENERATE(
       Row{"absent --to csv", "absent: there is no such folder, expected a run folder\n"},
       Row{". --to csv", ".: not a run folder, it has no run.json\n"},
-      Row{"r --to vdb", "--to \"vdb\" is not known, expected one of: csv, vtk, ply"},
+      Row{"r --to vtu", "--to \"vtu\" is not known, expected one of: csv, vtk, ply, vdb, raster"},
       Row{"r --to csv --frame 3", "r: there is no frame 3, expected one of 0 to 2\n"},
       Row{"r --to csv --only smok", "--only \"smok\" is not known, expected one of: particles, smoke; did you mean"},
       Row{"r --to csv --only smoke", "r: has no frames of smoke, expected frames/smoke_000000.hdf; "},

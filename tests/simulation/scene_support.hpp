@@ -25,6 +25,8 @@ inline Scene scene_with_everything(int dim, std::string_view preset = "physical"
   scene.suspension->lid.assign(n, 0);
   scene.smoke[0].lower.assign(n, 1);
   scene.smoke[0].upper.assign(n, 2);
+  scene.pylon[0].position.assign(n - 1, 3);
+  scene.pylon[0].name = "pylon1";
   scene.obstacle[0].lower.assign(n, -2);
   scene.obstacle[0].upper.assign(n, -1);
   return scene;

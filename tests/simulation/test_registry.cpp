@@ -89,6 +89,7 @@ TEST_CASE("every member of every section has a key", "[registry]") {
   CHECK(n_keys("coupling.generation") == n_members<GenerationSection>());
   CHECK(n_keys("coupling.adhesion") == n_members<AdhesionSection>());
   CHECK(n_keys("entrainment") == n_members<EntrainmentSection>());
+  CHECK(n_keys("pylon") == n_members<PylonSection>());
   CHECK(n_keys("output") == n_members<OutputSection>());
 }
 
@@ -139,6 +140,7 @@ TEST_CASE("defaults are the structs' own", "[registry]") {
   structs.coupling->generation.emplace();
   structs.coupling->adhesion.emplace();
   structs.entrainment.emplace();
+  structs.pylon.emplace_back();
   CHECK(same(complete_scene("physical"), structs));
 }
 

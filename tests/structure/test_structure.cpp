@@ -33,6 +33,8 @@ const std::map<std::string, std::string> homes{
     {"hdf5.h", "src/io/"},
     {"cairo/", "src/io/"},
     {"xxhash.h", "src/io/"},
+    {"gdal", "src/io/"},
+    {"openvdb/", "src/io/vdb.cpp"},
     {"nanoflann", "src/sph/kd_tree.hpp"},
     {"CLI/", "apps/"},
     {"toml++/", "src/simulation/toml_document.cpp"},
