@@ -87,6 +87,10 @@ void Pylons<Dim>::feel_flow(const Particles<Dim>& p, const Point& point) {
 
 template <int Dim>
 void Pylons<Dim>::feel_air(const Suspension<Dim>& suspension, const Point& point) {
+  if (!suspension.grid().box().contains(point.x)) {  // still air, see [suspension.tiles]
+    row_.insert(row_.end(), {0.0, 0.0, 0.0});
+    return;
+  }
   const Stencil<Dim> around = cell_stencil<Dim>(suspension.grid(), point.x);
   double smoke = 0, open = 0;
   for (std::size_t c = 0; c < Stencil<Dim>::n; ++c) {

@@ -76,7 +76,8 @@ class Rasters {
   Peaks peaks_;
   std::vector<double> first_cover_;  ///< thickness of the cover at the start [m]
 
-  MacGrid<2> columns_;  ///< of the air's grid
+  MacGrid<3> air_;      ///< the air's grid over the whole domain
+  MacGrid<2> columns_;  ///< of it, seen from above
   Cloud cloud_;
 };
 
