@@ -137,11 +137,16 @@ ElevationGrid read_raster(const std::filesystem::path& file) {
 ElevationGrid read_elevation_model(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".asc") return read_esri_grid(file);
+  const auto with_heights = [&](ElevationGrid grid) {
+    if (std::ranges::all_of(grid.z, [](double z) { return std::isnan(z); }))
+      refuse(file, "has no heights, all are holes");
+    return grid;
+  };
+  if (ending == ".asc") return with_heights(read_esri_grid(file));
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw GridFileError("there is no file " + file.string());
   if (!std::filesystem::is_regular_file(file, error)) throw GridFileError(file.string() + " is no regular file");
-  return read_raster(file);
+  return with_heights(read_raster(file));
 }
 
 }  // namespace spindrift

@@ -81,6 +81,7 @@ class MapReader {
   bool fits(const std::string& section, const std::string& shape) {
     report_.suspect(section + ".points");
     if (shape != "area") {
+      report_.suspect(section + ".shape");
       add(fmt::format("needs {0}.shape = \"area\"; it is \"{1}\" at {2}", section, shape,
                       report_.text_of(place_of(places_, section + ".shape"))));
       return false;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -203,8 +202,8 @@ class Reader {
       for (const char* section : {"terrain", "release", "domain", "cover"}) report_.suspect(section);
       return AvaframeFolder{};
     };
-    std::vector<std::string> others = {"terrain.file", "terrain.points", "release.points",
-                                       "release.file", "release.at",     "release[1]"};
+    std::vector<std::string> others{"terrain.file", "terrain.points", "release.points",
+                                    "release.file", "release.at",     "release[1]"};
     if (scene_.terrain->shape != "grid") others.push_back("terrain.shape");
     if (!scene_.release.empty() && scene_.release[0].shape != "area") others.push_back("release.shape");
     for (const std::string& other : others)
@@ -256,8 +255,6 @@ class Reader {
       if (shape == "grid") {
         if (model.empty()) model = folder / scene_.terrain->file;
         scene_.elevation = std::make_shared<const ElevationGrid>(read_elevation_model(model));
-        if (!std::ranges::any_of(scene_.elevation->z, [](double z) { return !std::isnan(z); }))
-          throw GridFileError(model.string() + ": has no heights, all are holes");
       } else {
         scene_.terrain->points = read_points(folder / std::exchange(scene_.terrain->file, {}));
         places_["terrain.points"] = place_of(places_, path);

@@ -31,6 +31,7 @@ constexpr double least_cos_slope = 0.1;
 /// gaps.) A stretch of ground gets the same places whatever the layer's extent.
 ///   - Normal distances are pressed together from the layer's faces by e = min(d / 4, thickness / 20), so that the
 ///     farthest place of a few lies d / 2 below the surface in the mean: s -> e + s (1 - 2 e / thickness).
+///   - A layer thinner than d has as many places as d^3 go into its volume, too: it is a choice of those of one of 2 d.
 ///   - A place belongs to the ground that is nearest. Of ground over 84 degrees there is none.
 /// accepts  says whether snow lies on a place (x, y) of the extent
 /// Cost: one height for every d^2 of the extent and 24 of a tile's rows, one foot for every place that is kept.

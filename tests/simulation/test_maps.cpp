@@ -10,6 +10,8 @@
 #include "io/temporary_folder.hpp"
 #include "scene_support.hpp"
 #include "simulation/ground.hpp"
+#include "simulation/local_origin.hpp"
+#include "simulation/outline.hpp"
 #include "simulation/plan.hpp"
 #include "simulation/release.hpp"
 #include "simulation/run.hpp"
@@ -27,17 +29,20 @@ namespace {
 
 using Ring = std::vector<std::array<double, 2>>;
 
-constexpr double x0 = 223000, y0 = 5365000;  // [m]
+constexpr double east = 223000, north = 5365000;  // [m]
 
 /// A slope of 61 x 41 points, 2 m apart, that falls by 0.6 along x.
 ElevationGrid slope() {
-  ElevationGrid grid{61, 41, x0, y0, 2, {}};
+  ElevationGrid grid{61, 41, east, north, 2, {}};
   for (int i = 0; i < grid.columns * grid.rows; ++i) grid.z.push_back(1500 - 0.6 * 2 * (i % grid.columns));
   return grid;
 }
 
 Ring square(double x, double y, double size) {
-  return {{x0 + x, y0 + y}, {x0 + x + size, y0 + y}, {x0 + x + size, y0 + y + size}, {x0 + x, y0 + y + size}};
+  return {{east + x, north + y},
+          {east + x + size, north + y},
+          {east + x + size, north + y + size},
+          {east + x, north + y + size}};
 }
 
 void write(const fs::path& path, const std::string& text) {
@@ -87,8 +92,8 @@ TEST_CASE("A folder of AvaFrame is a scene: ground, domain, release and cover", 
   const Scene scene = folder.read();
   CHECK(scene.terrain->shape == "grid");
   CHECK(scene.elevation->columns == 61);
-  CHECK(scene.domain.lower == std::vector<double>{x0 + 1, y0 + 1, 1418});
-  CHECK(scene.domain.upper == std::vector<double>{x0 + 119, y0 + 79, 1600});
+  CHECK(scene.domain.lower == std::vector<double>{east + 1, north + 1, 1418});
+  CHECK(scene.domain.upper == std::vector<double>{east + 119, north + 79, 1600});
   CHECK(scene.domain.front == "open");
   REQUIRE(scene.release.size() == 2);
   CHECK(scene.release[0].shape == "area");
@@ -103,16 +108,17 @@ TEST_CASE("A folder of AvaFrame is a scene: ground, domain, release and cover", 
   CHECK(plan.release_area == Approx(500 * ratio).epsilon(0.01));
   CHECK(plan.release_volume == Approx((400 * 1.2 + 100 * 0.8) * ratio).epsilon(0.01));
   CHECK(plan.cover_area == Approx(1600 * ratio).epsilon(0.01));
-  const Walls<3> walls = make_walls<3>(scene);
-  const auto cover = make_cover<3>(scene, walls, 0);
+  const Scene near = around_local_origin(scene);
+  const Walls<3> walls = make_walls<3>(near);
+  const auto cover = make_cover<3>(near, walls, 0);
   CHECK(static_cast<double>(cover->particles.size()) == Approx(plan.n_cover).epsilon(0.02));
-  for (const Foot<3>& foot : cover->foot) REQUIRE(inside(scene.cover->areas[0], foot.place[0], foot.place[1]));
+  for (const Foot<3>& foot : cover->foot) REQUIRE(inside(near.cover->areas[0], foot.place[0], foot.place[1]));
   // Where a release reaches over the cover its snow lies on the cover, elsewhere on the ground.
-  const ReleasedSnow<3> snow = released_snow<3>(scene, walls);
+  const ReleasedSnow<3> snow = released_snow<3>(near, walls);
   CHECK(static_cast<double>(snow.particles.size()) == Approx(plan.n_release).epsilon(0.03));
   for (const Vec<3>& x : snow.particles.position) {
     const Foot<3> foot = walls.terrain->foot(x);
-    const double base = inside(scene.cover->areas[0], foot.place[0], foot.place[1]) ? 0.5 : 0;
+    const double base = inside(near.cover->areas[0], foot.place[0], foot.place[1]) ? 0.5 : 0;
     REQUIRE((foot.distance > base && foot.distance < base + 1.2));
   }
 }
@@ -184,6 +190,7 @@ TEST_CASE("A folder that is no scene is told, with what it has", "[map]") {
     CHECK_THAT(folder.refusal(), Catch::StartsWith(place + "contradicts release.points at "));
     folder.scene("[terrain]\navaframe = \"ava\"\n[release]\nshape = \"ball\"\n");
     CHECK_THAT(folder.refusal(), Catch::StartsWith(place + "contradicts release.shape at "));
+    folder.scene("[terrain]\navaframe = \"ava\"\n");
     CHECK_THAT(folder.refusal({"scene.dim=2"}), Catch::Contains("needs scene.dim = 3"));
   }
 }
@@ -229,9 +236,9 @@ TEST_CASE("Polygons off the elevation model, over its holes or in other coordina
   folder.release({{{square(10, 20, 20)}, "1"}}, "thickness", 31287);
   CHECK(folder.refusal() == "");
   ElevationGrid holed = slope();
-  holed.at(10, 12) = std::nan("");
+  holed.at(8, 12) = std::nan("");
   write(folder.ava() / "dem.asc", esri_grid_text(holed));
-  CHECK(folder.refusal() == who + "lies over a hole of the elevation model at (223020, 5365024)");
+  CHECK(folder.refusal() == who + "lies over a hole of the elevation model at (223016, 5365024)");
   write(folder.ava() / "dem.asc", esri_grid_text(slope()));
   write_shapefile(folder.path() / "other.shp", {{{square(1, 2, 2)}, "1"}}, "thickness", 32632);
   fs::copy_file(folder.path() / "other.prj", folder.ava() / "dem.prj");
@@ -260,10 +267,10 @@ TEST_CASE("Releases, cover and obstacles from files of one's own, with holes", "
   CHECK(plan.release_area == Approx((400 - 64 + 50) * std::hypot(1, 0.6)).epsilon(0.02));
   const Walls<3> walls = make_walls<3>(scene);
   CHECK(walls.obstacles.empty());
-  CHECK(walls.terrain->height({x0 + 85, y0 + 55, 0}) == Approx(1500 - 0.6 * 85 + 7));
+  CHECK(walls.terrain->height({east + 85, north + 55, 0}) == Approx(1500 - 0.6 * 85 + 7));
   for (const Vec<3>& x : released_snow<3>(scene, walls).particles.position) {
     const Foot<3> foot = walls.terrain->foot(x);
-    REQUIRE_FALSE((std::abs(foot.place[0] - x0 - 20) < 4 && std::abs(foot.place[1] - y0 - 30) < 4));
+    REQUIRE_FALSE((std::abs(foot.place[0] - east - 20) < 4 && std::abs(foot.place[1] - north - 30) < 4));
   }
   const std::string start = (folder.path() / "a.toml").string();
   folder.scene(grid_keys + "[release]\nfile = \"own.shp\"\n");

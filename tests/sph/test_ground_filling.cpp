@@ -91,9 +91,9 @@ TEST_CASE("A layer of few particles, or thinner than one, has its exact volume i
   const double spacing = GENERATE(0.5, 2.0), thickness = GENERATE(0.3, 0.1), slope = GENERATE(0.0, 36.0) * degree;
   const std::uint64_t seed = GENERATE(1, 7);
   CAPTURE(spacing, thickness, slope / degree, seed);
-  const double size = 100 * spacing;
+  const double size = 150 * spacing;
   const Terrain<3> terrain =
-      field([=](double x, double y) { return -std::tan(slope) * (0.8 * x + 0.6 * y); }, spacing * 4);
+      field([=](double x, double y) { return -std::tan(slope) * (0.8 * x + 0.6 * y); }, spacing * 5);
   const GroundLayer layer{.extent = {{0, 0}, {size, size}}, .thickness = thickness, .spacing = spacing, .seed = seed};
   const auto places = fill_ground(*terrain.height_field(), layer, [](const Vec<2>&) { return true; });
   const double expected = size * size / std::cos(slope) * thickness / std::pow(spacing, 3);
