@@ -6,6 +6,7 @@
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "simulation/instruments.hpp"
+#include "simulation/setup.hpp"
 
 namespace spindrift {
 namespace {
@@ -39,9 +40,9 @@ Rasters::Rasters(const Simulation<3>& simulation)
     peaks_.pressure.resize(area_.size());
     if (simulation.cover()) first_cover_ = cover_thickness(*simulation.cover());
   }
-  if (const auto& air = simulation.suspension()) {
-    const MacGrid<3>& grid = air->grid();
-    columns_ = {grid.origin.head<2>(), grid.dx, {grid.cells[0], grid.cells[1]}};
+  if (simulation.suspension()) {
+    air_ = make_grid<3>(simulation.scene(), simulation.walls());
+    columns_ = {air_.origin.head<2>(), air_.dx, {air_.cells[0], air_.cells[1]}};
     cloud_.densest.resize(count<2>(columns_.cells));
     cloud_.highest.resize(cloud_.densest.size(), -1);
   }
@@ -99,18 +100,20 @@ void Rasters::raise(Peaks& peaks) const {
 }
 
 void Rasters::raise(Cloud& cloud, const Suspension<3>& suspension) const {
-  const Index<3>& cells = suspension.grid().cells;
+  const Index<3>&cells = suspension.grid().cells, &lower = suspension.grid().lower;
   const auto smoke = suspension.smoke_mass().values();
   const auto look_at_row = [&](std::size_t row) {
-    double* const densest = cloud.densest.data() + row * static_cast<std::size_t>(cells[0]);
-    int* const highest = cloud.highest.data() + row * static_cast<std::size_t>(cells[0]);
+    const int j = static_cast<int>(row);
+    const std::size_t column = flat<2>({lower[0], lower[1] + j}, columns_.cells);
+    double* const densest = cloud.densest.data() + column;
+    int* const highest = cloud.highest.data() + column;
     for (int k = 0; k < cells[2]; ++k) {
-      const std::size_t first = flat<3>({0, static_cast<int>(row), k}, cells);
+      const std::size_t first = flat<3>({0, j, k}, cells);
       for (std::size_t i = 0; i < static_cast<std::size_t>(cells[0]); ++i) {
         if (smoke[first + i] == 0) continue;
         const double density = suspension.smoke_density(first + i);
         densest[i] = std::max(densest[i], density);
-        if (density >= cloud_density) highest[i] = std::max(highest[i], k);
+        if (density >= cloud_density) highest[i] = std::max(highest[i], lower[2] + k);
       }
     }
   };
@@ -165,7 +168,7 @@ std::vector<Raster> Rasters::maps(const Simulation<3>& simulation) {
     parallel_for(height.size(), [&](std::size_t column) {
       if (cloud.highest[column] < 0) return;
       const Index<2> at = unflat<2>(column, columns_.cells);
-      const Vec<3> top = air->grid().cell_centre({at[0], at[1], cloud.highest[column]});
+      const Vec<3> top = air_.cell_centre({at[0], at[1], cloud.highest[column]});
       height[column] = std::max(0.0, simulation.walls().terrain->foot(top).distance);
     });
     add("smoke_density", columns_, cloud.densest);
