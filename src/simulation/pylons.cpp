@@ -87,19 +87,19 @@ void Pylons<Dim>::feel_flow(const Particles<Dim>& p, const Point& point) {
 
 template <int Dim>
 void Pylons<Dim>::feel_air(const Suspension<Dim>& suspension, const Point& point) {
-  if (!suspension.grid().box().contains(point.x)) {  // still air, see [suspension.tiles]
-    row_.insert(row_.end(), {0.0, 0.0, 0.0});
-    return;
+  const MacGrid<Dim>& grid = suspension.grid();
+  double smoke = 0, speed = suspension.options().wind.norm();  // beyond the grid there is nothing but wind
+  if (grid.box().contains(point.x)) {
+    const Stencil<Dim> around = cell_stencil<Dim>(grid, point.x);
+    double open = 0;
+    for (std::size_t c = 0; c < Stencil<Dim>::n; ++c) {
+      if (suspension.ground().volume()[around.point[c]] == 0) continue;  // inside the ground there is no smoke to tell
+      smoke += around.weight[c] * suspension.smoke_density(around.point[c]);
+      open += around.weight[c];
+    }
+    if (open > 0) smoke /= open;
+    speed = velocity_at<Dim>(grid, suspension.velocity(), point.x).norm();
   }
-  const Stencil<Dim> around = cell_stencil<Dim>(suspension.grid(), point.x);
-  double smoke = 0, open = 0;
-  for (std::size_t c = 0; c < Stencil<Dim>::n; ++c) {
-    if (suspension.ground().volume()[around.point[c]] == 0) continue;  // inside the ground there is no smoke to tell
-    smoke += around.weight[c] * suspension.smoke_density(around.point[c]);
-    open += around.weight[c];
-  }
-  if (open > 0) smoke /= open;
-  const double speed = velocity_at<Dim>(suspension.grid(), suspension.velocity(), point.x).norm();
   const double density = suspension.options().air_density + smoke;
   row_.insert(row_.end(), {smoke, speed, density * speed * speed / pascal_per_kilopascal});
 }

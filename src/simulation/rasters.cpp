@@ -6,6 +6,7 @@
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
 #include "simulation/instruments.hpp"
+#include "simulation/setup.hpp"
 
 namespace spindrift {
 namespace {
@@ -102,11 +103,12 @@ void Rasters::raise(Cloud& cloud, const Suspension<3>& suspension) const {
   const Index<3>&cells = suspension.grid().cells, &lower = suspension.grid().lower;
   const auto smoke = suspension.smoke_mass().values();
   const auto look_at_row = [&](std::size_t row) {
-    const std::size_t column = flat<2>({lower[0], lower[1] + static_cast<int>(row)}, columns_.cells);
+    const int j = static_cast<int>(row);
+    const std::size_t column = flat<2>({lower[0], lower[1] + j}, columns_.cells);
     double* const densest = cloud.densest.data() + column;
     int* const highest = cloud.highest.data() + column;
     for (int k = 0; k < cells[2]; ++k) {
-      const std::size_t first = flat<3>({0, static_cast<int>(row), k}, cells);
+      const std::size_t first = flat<3>({0, j, k}, cells);
       for (std::size_t i = 0; i < static_cast<std::size_t>(cells[0]); ++i) {
         if (smoke[first + i] == 0) continue;
         const double density = suspension.smoke_density(first + i);

@@ -76,8 +76,8 @@ class Rasters {
   Peaks peaks_;
   std::vector<double> first_cover_;  ///< thickness of the cover at the start [m]
 
-  MacGrid<3> air_;      ///< the air's grid over the whole domain
-  MacGrid<2> columns_;  ///< of it, seen from above
+  MacGrid<3> air_;      ///< the whole grid of the air, of which the suspension may hold a part
+  MacGrid<2> columns_;  ///< of that grid
   Cloud cloud_;
 };
 

@@ -190,7 +190,8 @@ class Warner {
   void pylons(const Walls<Dim>& walls) {
     for (std::size_t i = 0; i < scene_.pylon.size(); ++i)
       if (pylon_place<Dim>(scene_.pylon[i], walls)[up_axis<Dim>] > walls.domain.upper[up_axis<Dim>])
-        add(numbered("pylon", i, scene_.pylon.size()), "stands out of the domain's top: it feels the air below that");
+        add(numbered("pylon", i, scene_.pylon.size()),
+            "stands out of the domain's top: it feels the wind beyond it alone");
   }
 
   template <int Dim>

@@ -6,6 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "io/temporary_folder.hpp"
+#include "simulation/pylons.hpp"
 #include "simulation/rasters.hpp"
 #include "simulation/run.hpp"
 #include "small_scene.hpp"
@@ -215,6 +216,20 @@ TEST_CASE("Smoke and cloud are those of the columns of air", "[rasters]") {
   // The middle of the highest cell, normal to the plane; a cell of the map has two columns along the slope.
   const double height = 14.75 - (12 - 2.5 * std::tan(slope));
   CHECK(at(named(maps, "cloud_height").map, 2.5, 3.5) == Approx(height * std::cos(slope)).epsilon(1e-3));
+}
+
+TEST_CASE("Smoke on tiles lies where it lies in the whole grid", "[rasters][pylons]") {
+  const std::string smoke =
+      without(slab, {"dense_flow", "[release]"}) +
+      "[[pylon]]\nposition = [3, 3]\nheight = 4\n[[pylon]]\nposition = [15.5, 7.5]\nheight = 12\n"
+      "[suspension]\ncell_size = 0.25\n[smoke]\ndensity = 2\nlower = [2, 2, 12]\nupper = [4, 4, 15]\n";
+  const Simulation<3> whole(scene_of(smoke)), tiles(scene_of(smoke + "[suspension.tiles]\n"));
+  REQUIRE(tiles.suspension()->smoke_mass().size() < whole.suspension()->smoke_mass().size());
+  const std::vector<Raster> a = Rasters(whole).maps(whole), b = Rasters(tiles).maps(tiles);
+  for (const std::size_t k : {0, 1}) CHECK(a[k].map.z == b[k].map.z);
+  Pylons<3> felt(whole), felt_on_tiles(tiles);
+  CHECK(*felt.follow(whole) == *felt_on_tiles.follow(tiles));
+  CHECK((*Pylons<3>(tiles).follow(tiles))[1] == Approx(2));
 }
 
 TEST_CASE("Maps are the same bits with any number of threads", "[rasters]") {
