@@ -45,6 +45,13 @@ TEST_CASE("The paper's scenes keep the paper's numbers", "[configs]") {
     CAPTURE(path.string());
     const Scene scene = read_scene(path);
     CHECK(scene.dense_flow->support_radius == 0.21);
+    if (scene.scene.dim == 3) {
+      const Simulation<3> simulation(scene);
+      CHECK(static_cast<double>(simulation.dense()->particles.size()) == Approx(10000).epsilon(0.01));
+      CHECK(make_grid<3>(scene, simulation.walls()).cells == Index<3>{170, 30, 40});
+      CHECK(simulation.suspension()->grid().dx == 1);
+      continue;
+    }
     const Simulation<2> simulation(scene);
     CHECK(simulation.dense()->particles.size() == 1000);
     CHECK(simulation.suspension()->grid().cells == Index<2>{690, 240});
