@@ -50,7 +50,10 @@ ExitCode check(const SceneArguments& arguments) {
   if (plan.release_area > 0) row("release", "{:.0f} m^2 of ground, {:.0f} m^3", plan.release_area, plan.release_volume);
   if (plan.cover_area > 0) row("cover", "{:.0f} m^2 of ground, {:g} m deep", plan.cover_area, scene.cover->depth);
   row("particles", "about {} released, {} in the cover", count_text(plan.n_release), count_text(plan.n_cover));
-  row("cells", "{} ({})", count_text(plan.n_cells), grid);
+  if (scene.suspension && scene.suspension->tiles)
+    row("cells", "about {}, on tiles (the limit is {})", count_text(plan.n_cells), grid);
+  else
+    row("cells", "{} ({})", count_text(plan.n_cells), grid);
   row("frames", "{}", count_text(plan.n_frames));
   row("memory", "about {}, {} available", bytes_text(plan.memory), bytes_text(memory_available()));
   row("disk", "about {}, {} left at {}", bytes_text(plan.disk), bytes_text(disk_available(folder)), folder.string());

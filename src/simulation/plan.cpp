@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "grid/still_tiles.hpp"
 #include "simulation/ground.hpp"
 #include "simulation/map_cells.hpp"
 #include "simulation/outline.hpp"
@@ -116,6 +117,13 @@ double typical_speed(const Scene& scene, const HeightField* ground) {
   return speed;
 }
 
+/// Cells of the largest box around the tiles of a cloud: measured, of Figs. 9 and 13 and of configs/slope_3d.toml.
+double cells_on_tiles(const Scene& scene, double release_volume) {
+  const double dim = scene.scene.dim, cloud_over_release = dim == 3 ? 5000 : 600;
+  const double least = std::pow(3 * (dim == 3 ? tile_edge<3> : tile_edge<2>), dim);
+  return std::max(least, std::ceil(cloud_over_release * release_volume / std::pow(scene.suspension->cell_size, dim)));
+}
+
 /// [s]
 double typical_step(const Scene& scene, const HeightField* ground) {
   const double speed = typical_speed(scene, ground);
@@ -184,6 +192,7 @@ Plan plan_scene(const Scene& scene) {
       plan.grid.push_back(std::max(1.0, std::round((upper[k] - lower[k]) / scene.suspension->cell_size)));
       plan.n_cells *= plan.grid.back();
     }
+    if (scene.suspension->tiles) plan.n_cells = std::min(plan.n_cells, cells_on_tiles(scene, plan.release_volume));
   }
   plan.n_steps = std::ceil(scene.scene.end_time / typical_step(scene, field));
   const OutputSection& output = scene.output;

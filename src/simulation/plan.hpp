@@ -16,7 +16,7 @@ struct Plan {
   double release_volume = 0;  ///< of all releases, in 2D a metre broad [m^3]
   double cover_area = 0;      ///< ground under the cover, in 2D a metre broad [m^2]
   std::vector<double> grid;   ///< cells along each axis; empty without a suspension
-  double n_cells = 0;
+  double n_cells = 0;         ///< of the grid; on tiles of the largest box around them, within a factor of some
   double n_frames = 0;
   double memory = 0;   ///< peak [B], within about a factor of two
   double disk = 0;     ///< run folder [B], within about a factor of two

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "simulation/cover_relief.hpp"
@@ -95,7 +96,12 @@ void Scenery::fill_ground(const Scene& scene) {
   ground_.height.reserve(count<2>(ground_.shape));
   for_each_index<2>(ground_.shape, [&](const Index<2>& i) {
     const Vec<2> place = ground_.place(i);
-    const double z = walls.terrain ? walls.terrain->height({place[0], place[1], 0}) : domain_.lower[2];
+    // Where an elevation model has no heights there is no ground to be seen.
+    const bool beside = (place - place.cwiseMax(domain_.lower.head<2>()).cwiseMin(domain_.upper.head<2>())).norm() > 0;
+    const bool unknown = scene.elevation && (beside || !walls.known.at(place));
+    const double z = unknown         ? std::numeric_limits<double>::quiet_NaN()
+                     : walls.terrain ? walls.terrain->height({place[0], place[1], 0})
+                                     : domain_.lower[2];
     ground_.height.push_back(static_cast<float>(z));
   });
 }

@@ -14,6 +14,7 @@
 #include "simulation/release.hpp"
 #include "simulation/run.hpp"
 #include "simulation/scene_warnings.hpp"
+#include "simulation/scenery.hpp"
 #include "simulation/setup.hpp"
 #include "simulation/simulation.hpp"
 
@@ -252,6 +253,14 @@ TEST_CASE("Snow that comes to a hole of the elevation model leaves, and is booke
   write(folder.path() / "dem.asc", esri_grid_text(holed));
   write(folder.path() / "a.toml", avalanche("shape = \"grid\"\nfile = \"dem.asc\"\n"));
   const Scene scene = read_scene(folder.path() / "a.toml", {"release.velocity=[30, 0, -20]"});
+  const Scenery scenery(scene, preview_view(scene));
+  const Landscape picture = scenery.landscape(picture_frame(0, nullptr, nullptr, {}));
+  for_each_index<2>(picture.ground.shape, [&](const Index<2>& i) {
+    const Vec<2> x = picture.ground.place(i);
+    const bool inside_domain = x[0] >= 0 && x[0] <= 12 && x[1] >= 0 && x[1] <= 8;
+    if (inside_domain && x[0] < 5) CHECK(std::isfinite(picture.ground.height[flat<2>(i, picture.ground.shape)]));
+    if (!inside_domain || x[0] > 6) CHECK(std::isnan(picture.ground.height[flat<2>(i, picture.ground.shape)]));
+  });
   bool told = false;
   for (const std::string& line : scene_warnings(scene, {}))
     told = told || line == "warning: terrain: has no heights under 54 % of the domain: snow that comes there leaves";

@@ -21,6 +21,7 @@ ExitCode outcome(const Scene& scene) {
 
 TEST_CASE("a plan counts particles, cells and frames", "[plan]") {
   Scene scene = scene_with_everything(2);
+  scene.suspension->tiles.reset();
   scene.dense_flow->support_radius = 0.5;
   scene.release[0].length = 10;
   scene.release[0].thickness = 2;
@@ -47,6 +48,19 @@ TEST_CASE("in 3D the plan counts the width", "[plan]") {
   scene.release[0].length = 10;
   scene.release[0].thickness = 2;
   CHECK(plan_scene(scene).n_release == 140);
+}
+
+TEST_CASE("on tiles the plan counts what a cloud may fill, whatever the domain", "[plan]") {
+  const std::string text =
+      "schema_version = 1\n[domain]\nlower = [0, 0]\nupper = [WIDTH, 500]\n[dense_flow]\n[release]\nshape = "
+      "\"box\"\nlower = [1, 1]\nupper = [3, 4]\n[suspension]\ncell_size = 0.5\n[suspension.tiles]\n";
+  const auto cells = [&](const std::string& width) {
+    std::string of_width = text;
+    return plan_scene(parse_scene(of_width.replace(of_width.find("WIDTH"), 5, width), "a.toml")).n_cells;
+  };
+  CHECK(cells("2000") == 600 * 6 / 0.25);
+  CHECK(cells("20000") == cells("2000"));
+  CHECK(cells("4") == 8 * 1000);
 }
 
 TEST_CASE("absent layers need nothing", "[plan]") {
