@@ -10,6 +10,7 @@
 #include "counter.hpp"
 #include "export_frame.hpp"
 #include "export_rasters.hpp"
+#include "frame_choice.hpp"
 #include "io/commit.hpp"
 #include "io/frame_files.hpp"
 #include "io/vdb.hpp"
@@ -25,8 +26,7 @@ namespace fs = std::filesystem;
 
 struct ExportArguments {
   std::string folder, to, output, only, format = "asc";
-  std::uint64_t every = 1;
-  std::optional<std::uint64_t> frame;
+  FrameChoice frames;
   double smoke_above = 1e-4;
 };
 
@@ -44,9 +44,7 @@ std::vector<FrameFile> chosen_frames(const ExportArguments& arguments, const std
   if (!arguments.only.empty() && arguments.only != layer) return files;
   if (arguments.to == "vdb" && layer != "smoke") return files;
   files = frame_files(arguments.folder, layer);
-  std::erase_if(files, [&](const FrameFile& file) {
-    return arguments.frame ? file.number != *arguments.frame : file.number % arguments.every != 0;
-  });
+  std::erase_if(files, [&](const FrameFile& file) { return !arguments.frames.takes(file.number); });
   return files;
 }
 
@@ -67,7 +65,7 @@ Error nothing_chosen(const ExportArguments& arguments) {
                 "{}: has no frames{}, expected {}; the run may have no such layer, or its [output] switches frames off",
                 arguments.folder, kind, frame_path(arguments.only.empty() ? "particles" : arguments.only, 0).string())};
   return {ExitCode::bad_input, fmt::format("{}: there is no frame {}{}, expected one of {} to {}", arguments.folder,
-                                           arguments.frame.value_or(0), kind, first, last)};
+                                           arguments.frames.frame.value_or(0), kind, first, last)};
 }
 
 ExitCode export_maps(const ExportArguments& arguments, const fs::path& out) {
@@ -148,13 +146,7 @@ void add_export(CLI::App& app, Command& chosen) {
       ->type_name("asc|tif");
   command->add_option("-o,--output", arguments->output, "where to (default: export/ in the run folder)")
       ->type_name("DIR");
-  CLI::Option* every = command->add_option("--every", arguments->every, "every Nth frame")
-                           ->check(CLI::Range(1, 1000000))
-                           ->type_name("N");
-  command->add_option("--frame", arguments->frame, "frame N alone; the first is 0")
-      ->check(CLI::Range(0, 1000000000))
-      ->type_name("N")
-      ->excludes(every);
+  arguments->frames.add_to(*command);
   command->add_option("--only", arguments->only, "particles or smoke alone")->type_name("particles|smoke");
   command
       ->add_option("--smoke-above", arguments->smoke_above,

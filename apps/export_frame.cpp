@@ -51,11 +51,8 @@ std::vector<std::byte> exported_particles(const StoredFrame& frame, const Export
   std::vector<float> radius(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i)
     radius[i] = 0.5f * std::pow(mass[i] / density[i], 1.0f / static_cast<float>(options.dim));
-  const auto positions = std::ranges::find(frame.arrays, "Points", &StoredArray::name);
-  const bool far_from_zero =
-      positions != frame.arrays.end() && std::holds_alternative<std::vector<double>>(positions->values);
-  if (!far_from_zero) values_of<float>(frame, "Points", file);
-  return as_points(cloud_of(frame.arrays, positions->view(), frame.attributes), {"radius", 1, std::move(radius)},
+  const StoredArray& positions = stored_points(frame.arrays, file.string());
+  return as_points(cloud_of(frame.arrays, positions.view(), frame.attributes), {"radius", 1, std::move(radius)},
                    options, file, frame);
 }
 

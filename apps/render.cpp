@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "core/parallel.hpp"
 #include "counter.hpp"
+#include "frame_choice.hpp"
 #include "io/commit.hpp"
 #include "io/film.hpp"
 #include "io/frame_files.hpp"
@@ -30,8 +31,7 @@ namespace fs = std::filesystem;
 struct RenderArguments {
   std::string folder, output, camera, sun, size;
   std::optional<double> azimuth, elevation, zoom, opaque_smoke;
-  std::uint64_t every = 1;
-  std::optional<std::uint64_t> frame;
+  FrameChoice frames;
   int threads = 0;
 };
 
@@ -110,10 +110,11 @@ std::map<std::uint64_t, FramePaths> chosen_frames(const RenderArguments& argumen
     throw Error(ExitCode::bad_input, fmt::format("{}: has no frames, expected {}; its [output] may switch them off",
                                                  arguments.folder, frame_path("particles", 0).string()));
   for (const auto& [number, paths] : all)
-    if (arguments.frame ? number == *arguments.frame : number % arguments.every == 0) chosen.emplace(number, paths);
+    if (arguments.frames.takes(number)) chosen.emplace(number, paths);
   if (chosen.empty())
-    throw Error(ExitCode::bad_input, fmt::format("{}: there is no frame {}, expected one of {} to {}", arguments.folder,
-                                                 arguments.frame.value_or(0), all.begin()->first, all.rbegin()->first));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: there is no frame {}, expected one of {} to {}", arguments.folder,
+                            arguments.frames.frame.value_or(0), all.begin()->first, all.rbegin()->first));
   return chosen;
 }
 
@@ -179,8 +180,8 @@ ExitCode render(const RenderArguments& arguments) {
     }
   }
   fmt::print(stderr, "{} picture{}\n", frames.size(), frames.size() == 1 ? "" : "s");
-  const bool all = arguments.every == 1 && !arguments.frame && frames.begin()->first == 0 &&
-                   frames.rbegin()->first == frames.size() - 1;
+  const bool all =
+      arguments.frames.takes_all() && frames.begin()->first == 0 && frames.rbegin()->first == frames.size() - 1;
   if (all && frames.size() > 1) {
     Film film;
     film.folder = out;
@@ -233,13 +234,7 @@ void add_render(CLI::App& app, Command& chosen) {
   command->add_option("--opaque-smoke", arguments->opaque_smoke, "in place of the scene's output.opaque_smoke [kg/m^3]")
       ->check(CLI::Range(1e-9, 1e4))
       ->type_name("DENSITY");
-  CLI::Option* every = command->add_option("--every", arguments->every, "every Nth frame")
-                           ->check(CLI::Range(1, 1000000))
-                           ->type_name("N");
-  command->add_option("--frame", arguments->frame, "frame N alone; the first is 0")
-      ->check(CLI::Range(0, 1000000000))
-      ->type_name("N")
-      ->excludes(every);
+  arguments->frames.add_to(*command);
   command->add_option("--threads", arguments->threads, "threads to use, 0: all")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");

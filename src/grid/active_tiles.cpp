@@ -10,10 +10,11 @@ namespace {
 
 constexpr int room_to_grow = 2;  // [tiles]
 
+/// A tile of a window, counted in the whole grid.
 template <int Dim>
-Index<Dim> divided(Index<Dim> cell) {
-  for (int& k : cell) k /= tile_edge<Dim>;
-  return cell;
+Index<Dim> in_whole(Index<Dim> tile, const MacGrid<Dim>& window) {
+  for (int k = 0; k < Dim; ++k) tile[k] += window.lower[k] / tile_edge<Dim>;
+  return tile;
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ void ActiveTiles<Dim>::mark(const Range& tiles) {
 template <int Dim>
 void ActiveTiles<Dim>::add(const Vec<Dim>& place) {
   const Index<Dim> cell = whole_.cell_of(place);
-  if (inside<Dim>(cell, whole_.cells)) mark({divided<Dim>(cell), divided<Dim>(cell)});
+  if (inside<Dim>(cell, whole_.cells)) mark({tile_of<Dim>(cell), tile_of<Dim>(cell)});
 }
 
 template <int Dim>
@@ -76,7 +77,7 @@ void ActiveTiles<Dim>::add(const Suspension<Dim>& air) {
       start[Dim - 1] += static_cast<int>(layer) * tile_edge<Dim>;
       if (start[Dim - 1] >= grid.cells[Dim - 1] || (Dim == 3 && start[1] >= grid.cells[1])) return;
       const double* row = field.row(start).data();
-      const auto flags = busy.row(divided<Dim>(start));
+      const auto flags = busy.row(tile_of<Dim>(start));
       for (int tile = 0; tile < tiles[0]; ++tile) {
         const int begin = tile * tile_edge<Dim>, end = std::min(begin + tile_edge<Dim>, grid.cells[0]);
         const double most = max_packs(begin, end, [&]<class T>(int i) { return magnitude(load<T>(row + i)); });
@@ -93,8 +94,7 @@ void ActiveTiles<Dim>::add(const Suspension<Dim>& air) {
       1);
   for_each_index<Dim>(tiles, [&](const Index<Dim>& tile) {
     if (!busy[tile]) return;
-    Index<Dim> here = tile;
-    for (int k = 0; k < Dim; ++k) here[k] += grid.lower[k] / tile_edge<Dim>;
+    const Index<Dim> here = in_whole<Dim>(tile, grid);
     mark({here, here});
   });
 }
@@ -172,11 +172,8 @@ typename ActiveTiles<Dim>::Sides ActiveTiles<Dim>::sides(const MacGrid<Dim>& win
 template <int Dim>
 StillTiles<Dim> ActiveTiles<Dim>::still(const MacGrid<Dim>& window) const {
   StillTiles<Dim> still{Field<Dim, std::uint8_t>(tiles_of<Dim>(window.cells))};
-  for_each_index<Dim>(still.tiles.shape(), [&](const Index<Dim>& tile) {
-    Index<Dim> here = tile;
-    for (int k = 0; k < Dim; ++k) here[k] += window.lower[k] / tile_edge<Dim>;
-    still.tiles[tile] = marks_[here] == 0;
-  });
+  for_each_index<Dim>(still.tiles.shape(),
+                      [&](const Index<Dim>& tile) { still.tiles[tile] = marks_[in_whole<Dim>(tile, window)] == 0; });
   return still;
 }
 

@@ -98,11 +98,12 @@ void Components<Dim>::find(const Field<Dim, CellKind>& kind, const FaceField<Dim
   }
   for (std::size_t r = 0; r < runs_.size(); ++r) runs_[r].component = number_[r];
 
+  const bool any_still = std::ranges::find(kind.values(), CellKind::still) != kind.values().end();
   for_each_run([&](const Index<Dim>& start, const Run& run) {
     Component& component = all_[run.component];
     component.n_cells += static_cast<std::size_t>(run.end - run.begin);
     if (component.reaches_open_side) return;
-    component.reaches_open_side = touches<Dim>(CellKind::still, start, run.begin, run.end, kind, open);
+    component.reaches_open_side = any_still && touches<Dim>(CellKind::still, start, run.begin, run.end, kind, open);
     for (int axis = 0; axis < Dim; ++axis) {
       for (int upper = 0; upper < 2; ++upper) {
         if (sides[axis][upper] != Side::open) continue;

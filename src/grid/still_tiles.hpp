@@ -11,6 +11,13 @@ namespace spindrift {
 template <int Dim>
 inline constexpr int tile_edge = Dim == 2 ? 16 : 8;  ///< of a tile [cells]
 
+/// The tile that holds a cell.
+template <int Dim>
+Index<Dim> tile_of(Index<Dim> cell) {
+  for (int& k : cell) k /= tile_edge<Dim>;
+  return cell;
+}
+
 /// Tiles that fill `cells`, those at the upper ends cut off.
 template <int Dim>
 Index<Dim> tiles_of(Index<Dim> cells) {
@@ -24,18 +31,12 @@ struct StillTiles {
   Field<Dim, std::uint8_t> tiles;
 
   bool any() const { return tiles.size() > 0; }
-  bool operator()(Index<Dim> cell) const {
-    if (!any()) return false;
-    for (int& k : cell) k /= tile_edge<Dim>;
-    return tiles[cell] != 0;
-  }
+  bool operator()(const Index<Dim>& cell) const { return any() && tiles[tile_of<Dim>(cell)] != 0; }
   /// Calls f(run of cells along the row at `start`, whether they are still) for runs that fill it.
   template <class F>
   void for_each_run(const Index<Dim>& start, const Index<Dim>& cells, F&& f) const {
     if (!any()) return f(Span{0, cells[0]}, false);
-    Index<Dim> tile = start;
-    for (int& k : tile) k /= tile_edge<Dim>;
-    const auto row = tiles.row(tile);
+    const auto row = tiles.row(tile_of<Dim>(start));
     for (std::size_t begin = 0, end = 0; begin < row.size(); begin = end) {
       while (end < row.size() && row[end] == row[begin]) ++end;
       f(Span{static_cast<int>(begin) * tile_edge<Dim>, std::min(static_cast<int>(end) * tile_edge<Dim>, cells[0])},
@@ -51,8 +52,7 @@ struct StillTiles {
       Index<Dim> cell = start;
       if (axis != 0) cell[axis] += side;
       if (cell[axis] < 0 || cell[axis] >= cells[axis]) continue;
-      for (int& k : cell) k /= tile_edge<Dim>;
-      const auto row = tiles.row(cell);
+      const auto row = tiles.row(tile_of<Dim>(cell));
       const int n = static_cast<int>(row.size());
       Span of_row{0, n};
       while (of_row.begin < n && row[static_cast<std::size_t>(of_row.begin)]) ++of_row.begin;

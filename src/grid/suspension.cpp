@@ -188,32 +188,35 @@ void Suspension<Dim>::start_from_velocity() {
     parallel_for(
         u.n_rows(),
         [&](std::size_t r) {
-          // Where air is still, both are 0.
-          const Span span = still_.any() ? rows_[axis][r] : Span{0, u.shape()[0]};
+          const Span span = moving_faces(axis, r);
           if (!span.empty())
-            std::copy(u.row(r).begin() + span.begin, u.row(r).begin() + span.end,
-                      carrier_[axis].row(r).begin() + span.begin);
+            std::copy_n(u.row(r).data() + span.begin, span.end - span.begin, carrier_[axis].row(r).data() + span.begin);
+          find_carrier_speed(axis, r);
         },
         u.rows_per_task());
   }
-  find_carrier_speeds();
   disturbed_ = false;
 }
 
 template <int Dim>
 void Suspension<Dim>::find_carrier_speeds() {
-  for (std::size_t axis = 0; axis < Dim; ++axis) {
-    const auto& u = carrier_[axis];
+  for (std::size_t axis = 0; axis < Dim; ++axis)
     parallel_for(
-        u.n_rows(),
-        [&](std::size_t r) {
-          const double* row = u.row(r).data();
-          const Span span = still_.any() ? rows_[axis][r] : Span{0, u.shape()[0]};
-          carrier_speed_[axis][r] =
-              max_packs(span.begin, span.end, [&]<class T>(int i) { return magnitude(load<T>(row + i)); });
-        },
-        u.rows_per_task());
-  }
+        carrier_[axis].n_rows(), [&](std::size_t r) { find_carrier_speed(axis, r); }, carrier_[axis].rows_per_task());
+}
+
+template <int Dim>
+void Suspension<Dim>::find_carrier_speed(std::size_t axis, std::size_t r) {
+  const double* row = carrier_[axis].row(r).data();
+  const Span span = moving_faces(axis, r);
+  carrier_speed_[axis][r] =
+      max_packs(span.begin, span.end, [&]<class T>(int i) { return magnitude(load<T>(row + i)); });
+}
+
+/// Of row r; where air is still, velocity and carrier are 0.
+template <int Dim>
+Span Suspension<Dim>::moving_faces(std::size_t axis, std::size_t r) const {
+  return still_.any() ? rows_[axis][r] : Span{0, velocity_[axis].shape()[0]};
 }
 
 /// Rows without smoke, now and at the last call, keep the air's density.

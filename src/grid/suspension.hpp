@@ -165,6 +165,8 @@ class Suspension {
   void project(double dt, double weight, std::span<CoreCell<Dim>> cores, Stages& stages);
   void start_from_velocity();
   void find_carrier_speeds();
+  void find_carrier_speed(std::size_t axis, std::size_t row);
+  Span moving_faces(std::size_t axis, std::size_t row) const;
   void reflect(std::span<CoreCell<Dim>> cores, double dt, Stages& stages);
   void set_density();
 

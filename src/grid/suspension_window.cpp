@@ -47,8 +47,11 @@ typename Suspension<Dim>::Forgotten Suspension<Dim>::move_window(const MacGrid<D
   moved.projection_.set_pressure(pressure);
   moved.disturbed_ = disturbed_;
   moved.kinds_are_old_ = true;
-  if (node_distance.size() > 0) moved.set_ground(node_distance);
-  moved.update_active(0, window.cells[0]);
+  if (node_distance.size() > 0) {
+    moved.set_ground(node_distance);
+  } else {
+    moved.update_active(0, window.cells[0]);
+  }
   moved.find_carrier_speeds();
   *this = std::move(moved);
   forgotten.momentum = momentum() - forgotten.momentum;

@@ -39,8 +39,7 @@ constexpr double most_heights = 5e7, highest = 1e5;  // [m]
 class RasterReader {
  public:
   explicit RasterReader(const std::filesystem::path& file)
-      : file_(file),
-        data_(GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr), GDALClose) {}
+      : file_(file), data_(open_for_reading(file, GDAL_OF_RASTER)) {}
 
   ElevationGrid read() {
     if (!data_) refuse(file_, fmt::format("not an elevation model that can be read: {}", CPLGetLastErrorMsg()));
@@ -121,7 +120,7 @@ class RasterReader {
   static bool is_hole(double z, double none) { return z == none || std::abs(z - none) <= 5e-6 * std::abs(none); }
 
   const std::filesystem::path& file_;
-  std::unique_ptr<void, decltype(&GDALClose)> data_;
+  GdalData data_;
   GDALRasterBandH band_ = nullptr;
 };
 

@@ -53,6 +53,14 @@ void missing_array(const std::string& name, const std::string& file) {
               fmt::format("{}: expected an array \"{}\" as `spindrift run` writes it", file, name));
 }
 
+const StoredArray& stored_points(const std::vector<StoredArray>& arrays, const std::string& file) {
+  for (const StoredArray& array : arrays)
+    if (array.name == "Points" && (std::holds_alternative<std::vector<float>>(array.values) ||
+                                   std::holds_alternative<std::vector<double>>(array.values)))
+      return array;
+  missing_array("Points", file);
+}
+
 double frame_number(const StoredFrame& frame, const std::string& name, const fs::path& file) {
   for (const Attribute& attribute : frame.attributes)
     if (attribute.name == name)

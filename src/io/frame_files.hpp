@@ -38,6 +38,10 @@ const std::vector<T>& array_values(const std::vector<StoredArray>& arrays, const
   missing_array(name, file);
 }
 
+/// The points of a frame of particles, in single or double precision, three numbers each.
+/// Throws    Error(incompatible_file): there are none, or of another type.
+const StoredArray& stored_points(const std::vector<StoredArray>& arrays, const std::string& file);
+
 /// A number that describes a whole frame, as "time" [s].   Throws Error(incompatible_file): `file` has none.
 double frame_number(const StoredFrame& frame, const std::string& name, const std::filesystem::path& file);
 

@@ -1,17 +1,16 @@
 #include "io/geotiff.hpp"
 
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "core/error.hpp"
 
 #ifdef SPINDRIFT_GDAL
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
-#include <gdal.h>
+
+#include "io/gdal_session.hpp"
 #endif
 
 namespace spindrift {
@@ -38,12 +37,11 @@ std::vector<std::byte> geotiff_bytes(const ElevationGrid& grid) {
   const auto check = [](bool good) {
     if (!good) throw Error(ExitCode::io_failed, std::string("GDAL writes no GeoTIFF: ") + CPLGetLastErrorMsg());
   };
-  GDALAllRegister();
+  const QuietGdal quiet;
   const GDALDriverH driver = GDALGetDriverByName("GTiff");
   check(driver != nullptr);
   char** const options = CSLSetNameValue(nullptr, "COMPRESS", "DEFLATE");
-  std::unique_ptr<void, decltype(&GDALClose)> data(
-      GDALCreate(driver, file, grid.columns, grid.rows, 1, GDT_Float32, options), GDALClose);
+  GdalData data(GDALCreate(driver, file, grid.columns, grid.rows, 1, GDT_Float32, options), GDALClose);
   CSLDestroy(options);
   check(data != nullptr);
   const double west = grid.x - grid.cell / 2, north = grid.y + (grid.rows - 0.5) * grid.cell;

@@ -22,7 +22,6 @@ StoredArray positions(const Lattice& lattice, std::span<const std::size_t> point
 }  // namespace
 
 StoredCloud lattice_points(const StoredFrame& image, std::span<const std::size_t> points) {
-  constexpr double far_from_zero = 20e3;  // [m]: beyond, single precision has no digits left
   const auto is_far = [](double x) { return std::abs(x) > far_from_zero; };
   StoredCloud cloud{std::ranges::any_of(image.lattice->origin, is_far) ? positions<double>(*image.lattice, points)
                                                                        : positions<float>(*image.lattice, points),

@@ -8,6 +8,9 @@
 
 namespace spindrift {
 
+/// Coordinates beyond are kept in double precision: single precision has no digits left [m].
+inline constexpr double far_from_zero = 20e3;
+
 /// A cloud that owns its values.
 struct StoredCloud {
   StoredArray positions;  ///< [m], three components

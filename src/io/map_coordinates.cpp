@@ -22,12 +22,6 @@ bool same_coordinates(const std::filesystem::path&, const std::filesystem::path&
 
 namespace {
 
-using Data = std::unique_ptr<void, decltype(&GDALClose)>;
-
-Data opened(const std::filesystem::path& file, unsigned kind) {
-  return {GDALOpenEx(file.c_str(), kind | GDAL_OF_READONLY, nullptr, nullptr, nullptr), GDALClose};
-}
-
 /// Whether x, y of one system are x, y of the other too: names and codes often differ where the coordinates do not.
 bool same_place(OGRSpatialReferenceH a, OGRSpatialReferenceH b, double x, double y) {
   const auto ordered = [](OGRSpatialReferenceH system) {
@@ -46,7 +40,7 @@ bool same_place(OGRSpatialReferenceH a, OGRSpatialReferenceH b, double x, double
 
 bool same_coordinates(const std::filesystem::path& polygons, const std::filesystem::path& model) {
   const QuietGdal quiet;
-  const Data shapes = opened(polygons, GDAL_OF_VECTOR), heights = opened(model, GDAL_OF_RASTER);
+  const GdalData shapes = open_for_reading(polygons, GDAL_OF_VECTOR), heights = open_for_reading(model, GDAL_OF_RASTER);
   if (!shapes || !heights || GDALDatasetGetLayerCount(shapes.get()) == 0) return true;
   const OGRSpatialReferenceH of_shapes = OGR_L_GetSpatialRef(GDALDatasetGetLayer(shapes.get(), 0));
   const OGRSpatialReferenceH of_heights = GDALGetSpatialRef(heights.get());

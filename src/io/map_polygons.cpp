@@ -151,8 +151,7 @@ std::vector<MapPolygon> read_map_polygons(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) reader.refuse("there is no such file");
   const QuietGdal quiet;
-  const std::unique_ptr<void, decltype(&GDALClose)> data(
-      GDALOpenEx(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr), GDALClose);
+  const GdalData data = open_for_reading(file, GDAL_OF_VECTOR);
   if (!data) reader.refuse(fmt::format("not a file of polygons that can be read: {}", CPLGetLastErrorMsg()));
   if (GDALDatasetGetLayerCount(data.get()) == 0) reader.refuse("there is no layer in it");
   OGRLayerH layer = GDALDatasetGetLayer(data.get(), 0);

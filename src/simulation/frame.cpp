@@ -105,10 +105,10 @@ ParticleFrame particle_frame(const Simulation<Dim>& s) {
                                        {"mass", Dim == 2 ? "kg/m" : "kg"},
                                        {"entrained_at", "s"}});
   const auto place = [](const Member& m, const auto& p) { return p.position[m.index]; };
-  frame.positions = vectors_of<float>(s, members, "Points", place);
-  if (const Vec<Dim> origin = origin_of(s); !origin.isZero())  // far from zero single precision has no digits left
-    frame.positions = vectors_of<double>(
-        s, members, "Points", [&](const Member& m, const auto& p) -> Vec<Dim> { return origin + place(m, p); });
+  const Vec<Dim> origin = origin_of(s);
+  const auto far_place = [&](const Member& m, const auto& p) -> Vec<Dim> { return origin + place(m, p); };
+  frame.positions = origin.isZero() ? vectors_of<float>(s, members, "Points", place)
+                                    : vectors_of<double>(s, members, "Points", far_place);
   frame.arrays.push_back(
       vectors_of<float>(s, members, "velocity", [](const Member& m, const auto& p) { return p.velocity[m.index]; }));
   frame.arrays.push_back(array_of<float>(

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/lattice_points.hpp"
+
 namespace spindrift {
 namespace {
 
-constexpr double far_from_zero = 20e3, step = 1e3;  // [m]
+constexpr double step = 1e3;  // [m]
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <variant>
 
 #include "core/error.hpp"
@@ -64,10 +63,7 @@ PictureFrame picture_frame(const StoredFile* particles, const StoredFile* smoke,
   }
   if (particles) {
     const std::string name = particles->path.string();
-    const auto points = std::ranges::find(particles->frame.arrays, "Points", &StoredArray::name);
-    if (points == particles->frame.arrays.end() || !std::holds_alternative<std::vector<double>>(points->values))
-      array_values<float>(particles->frame.arrays, "Points", name);
-    picture.positions = around(origin, *points);
+    picture.positions = around(origin, stored_points(particles->frame.arrays, name));
     take_particles(picture, particles->frame.arrays, name);
     const std::size_t n = picture.layer.size();
     if (picture.positions.size() != 3 * n || picture.entrained_at.size() != n)
