@@ -65,7 +65,7 @@ struct DenseAlone {
     solved = dense.solve_velocity(dt, stages);
     {
       const auto columns_timed = stages.time("dense_flow.columns");
-      build_columns<2>(columns, *walls.terrain, p, cover ? &*cover : nullptr, dense.options().spacing,
+      build_columns<2>(columns, *walls.terrain, dense.feet(), p, cover ? &*cover : nullptr, dense.options().spacing,
                        dense.options().support_radius);
     }
     {

@@ -40,7 +40,8 @@ void classify_overlap(std::vector<std::uint8_t>& overlap, const DenseFlow<Dim>& 
         n += cover.particles->volume[c] * number_density_kernel((x - cover.particles->position[c]).norm(), h, d);
       });
     if (!full())
-      n += dense.wall_kernel().number_density_share(walls, x) * dense.wall_kernel().number_density_integral();
+      n += dense.wall_kernel().number_density_share(walls, x, dense.foot(i)) *
+           dense.wall_kernel().number_density_integral();
     overlap[i] = !full();
   });
 }

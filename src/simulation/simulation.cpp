@@ -123,7 +123,10 @@ typename Simulation<Dim>::TimeStep Simulation<Dim>::choose_time_step() const {
 template <int Dim>
 void Simulation<Dim>::predict_velocities() {
   if (dense_) {
-    dense_->sort_and_find_neighbours(walls_, cover_view(), stages_);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const bool in_columns = bed_friction_ || entrainment_;
+    dense_->sort_and_find_neighbours(walls_, cover_view(), stages_,
+                                     in_columns ? infinity : dense_->options().support_radius);
     Particles<Dim>& p = dense_->particles;
     parallel_for(p.size(), [&](std::size_t i) { p.velocity[i] += dt_ * gravity_; });
     report_.gravity_on_dense = dt_ * total_mass(p) * gravity_;
@@ -177,8 +180,8 @@ void Simulation<Dim>::advance_dense_flow() {
   Particles<Dim>& p = dense_->particles;
   if (bed_friction_ || entrainment_) {
     const auto timed = stages_.time("dense_flow.columns");
-    build_columns<Dim>(columns_, *walls_.terrain, p, cover_ ? &*cover_ : nullptr, dense_->options().spacing,
-                       dense_->options().support_radius);
+    build_columns<Dim>(columns_, *walls_.terrain, dense_->feet(), p, cover_ ? &*cover_ : nullptr,
+                       dense_->options().spacing, dense_->options().support_radius);
   }
   if (bed_friction_) {
     const auto timed = stages_.time("dense_flow.friction");

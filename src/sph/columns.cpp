@@ -1,7 +1,6 @@
 #include "sph/columns.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -84,7 +83,7 @@ void measure(Column<Dim>& c, const Columns<Dim>& columns, const Particles<Dim>& 
     ++c.end_standing;
   }
   if (c.end_standing == c.first) return;
-  c.thickness = std::max(volume / c.area, spacing);
+  c.thickness = volume / c.area;
   c.mass_per_area = mass / c.area;
   if (mass > 0) c.velocity = momentum / mass;
 }
@@ -99,20 +98,16 @@ const Column<Dim>* Columns<Dim>::find(const GroundBin<Dim>& bin) const {
 }
 
 template <int Dim>
-void build_columns(Columns<Dim>& columns, const Terrain<Dim>& terrain, const Particles<Dim>& dense,
-                   const Cover<Dim>* cover, double spacing, double support_radius) {
+void build_columns(Columns<Dim>& columns, const Terrain<Dim>& terrain, std::span<const Foot<Dim>> feet,
+                   const Particles<Dim>& dense, const Cover<Dim>* cover, double spacing, double support_radius) {
+  SPINDRIFT_CHECK(feet.size() == dense.size());
   SPINDRIFT_CHECK(spacing > 0 && (cover == nullptr || cover->particles.empty() || cover->spacing == spacing));
   const std::size_t n = dense.size();
   columns.bin_size = 2 * spacing;
   columns.columns.clear();
   std::fill(columns.table.begin(), columns.table.end(), 0);
-  columns.foot.resize(n);
   columns.column.resize(n);
-  // A position that is not finite is reported by the step's checks; until then it hovers out of reach.
-  const Foot<Dim> nowhere{.distance = std::numeric_limits<double>::infinity()};
-  parallel_for(n, [&](std::size_t i) {
-    columns.foot[i] = dense.position[i].allFinite() ? terrain.foot(dense.position[i]) : nowhere;
-  });
+  columns.foot = feet;
   for (std::size_t i = 0; i < n; ++i)
     columns.column[i] = column_at(columns, ground_bin<Dim>(columns.foot[i].place, columns.bin_size));
   sort_by_column(columns);
@@ -130,10 +125,10 @@ void build_columns(Columns<Dim>& columns, const Terrain<Dim>& terrain, const Par
       64);
 }
 
-#define INSTANTIATE(Dim)                                                                                         \
-  template struct Columns<Dim>;                                                                                  \
-  template void build_columns<Dim>(Columns<Dim>&, const Terrain<Dim>&, const Particles<Dim>&, const Cover<Dim>*, \
-                                   double, double);
+#define INSTANTIATE(Dim)                                                                           \
+  template struct Columns<Dim>;                                                                    \
+  template void build_columns<Dim>(Columns<Dim>&, const Terrain<Dim>&, std::span<const Foot<Dim>>, \
+                                   const Particles<Dim>&, const Cover<Dim>*, double, double);
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

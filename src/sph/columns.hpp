@@ -20,7 +20,7 @@ struct Column {
   GroundBin<Dim> bin{};
   double area = 0;                       ///< A, of its ground [m^(Dim-1)]
   double bed = 0;                        ///< normal distance of the bed from the ground [m]: the cover's surface, or 0
-  double thickness = 0;                  ///< h_flow = sum V / A, at least d [m]; 0: nothing stands on the bed
+  double thickness = 0;                  ///< h_flow = sum V / A [m]; 0: nothing stands on the bed
   double mass_per_area = 0;              ///< sum m / A [kg m^-2]
   Vec<Dim> velocity = Vec<Dim>::Zero();  ///< of the column's centre of mass [m s^-1]
   Vec<Dim> friction =
@@ -32,7 +32,7 @@ struct Column {
 template <int Dim>
 struct Columns {
   double bin_size = 0;                 ///< 2 d [m]
-  std::vector<Foot<Dim>> foot;         ///< of every dense particle
+  std::span<const Foot<Dim>> foot;     ///< of every dense particle: of DenseFlow, or whoever found them
   std::vector<std::uint32_t> column;   ///< of every dense particle: its number in `columns`
   std::vector<Column<Dim>> columns;    ///< only bins that hold dense particles, in order of first appearance
   std::vector<std::uint32_t> members;  ///< dense particles by column, nearest to the ground first, ties by id
@@ -48,8 +48,7 @@ struct Columns {
   }
 
   std::size_t bytes() const {
-    return spindrift::bytes(foot) + spindrift::bytes(column, members, table) + spindrift::bytes(columns) +
-           spindrift::bytes(heights);
+    return spindrift::bytes(column, members, table) + spindrift::bytes(columns) + spindrift::bytes(heights);
   }
 
   struct Height {
@@ -61,14 +60,15 @@ struct Columns {
 };
 
 /// Sorts the dense particles into columns over bins of edge 2 d.
-/// columns         out
+/// columns         out; it refers to `feet`
+/// feet            in: of the terrain, one a particle
 /// dense           in: V > 0
 /// cover           in: may be null (bare ground)
 /// spacing         d [m]
 /// support_radius  h [m], the widest air gap that a column bridges
 /// Source: paper Sec. 4.3 has no bed friction.  Departure: R18.
 template <int Dim>
-void build_columns(Columns<Dim>& columns, const Terrain<Dim>& terrain, const Particles<Dim>& dense,
-                   const Cover<Dim>* cover, double spacing, double support_radius);
+void build_columns(Columns<Dim>& columns, const Terrain<Dim>& terrain, std::span<const Foot<Dim>> feet,
+                   const Particles<Dim>& dense, const Cover<Dim>* cover, double spacing, double support_radius);
 
 }  // namespace spindrift

@@ -67,13 +67,18 @@ DenseFlow<Dim>::DenseFlow(const DenseFlowOptions& options)
       artificial_viscosity_(options.spacing) {}
 
 template <int Dim>
-void DenseFlow<Dim>::sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages) {
+void DenseFlow<Dim>::sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages,
+                                              double ground_reach) {
   {
     auto timed = stages.time("dense_flow.sort");
     cells_.build(particles);
   }
+  if (walls.terrain) {
+    auto timed = stages.time("dense_flow.ground");
+    walls.terrain->find_feet(feet_, particles.position, ground_reach);
+  }
   auto timed = stages.time("dense_flow.neighbours");
-  neighbours_.find(particles, cells_, walls, wall_kernel_, cover, options_.no_slip && options_.viscosity > 0,
+  neighbours_.find(particles, cells_, walls, wall_kernel_, feet_, cover, options_.no_slip && options_.viscosity > 0,
                    options_.neighbour_search);
 }
 
@@ -159,7 +164,8 @@ double DenseFlow<Dim>::time_step_limit(double cfl, double gravity) const {
 template <int Dim>
 std::size_t DenseFlow<Dim>::bytes() const {
   return particles.bytes() + wall_kernel_.bytes() + cells_.bytes() + neighbours_.bytes() + pressure_solver_.bytes() +
-         viscosity_solver_.bytes() + artificial_viscosity_.bytes() + spindrift::bytes(wave_speed_);
+         viscosity_solver_.bytes() + artificial_viscosity_.bytes() + spindrift::bytes(wave_speed_) +
+         spindrift::bytes(feet_);
 }
 
 template class DenseFlow<2>;

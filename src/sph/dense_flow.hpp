@@ -1,6 +1,8 @@
 #pragma once
 /// The dense-flow layer (paper Sec. 4.3): particles, their neighbours and the solvers, in the order of the step.
 
+#include <limits>
+
 #include "core/stages.hpp"
 #include "sph/artificial_viscosity.hpp"
 #include "sph/cell_list.hpp"
@@ -74,8 +76,11 @@ class DenseFlow {
 
   /// The step, in this order; between the first two the caller may change velocities and masses. Any number of
   /// particles is legal, none too.
-  /// 1: sorts the particles and finds all neighbours. Throws Error(unstable): a position that is not finite.
-  void sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages);
+  /// 1: sorts the particles, finds the ground below each and all neighbours. ground_reach: how far the ground is looked
+  /// for [m], at least the support radius, beyond which no wall acts. Throws Error(unstable): a position that is not
+  /// finite.
+  void sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages,
+                                double ground_reach = std::numeric_limits<double>::infinity());
   /// 2: viscosity and pressure. Gravity is in the velocities already. dfsph is kept quiet by ArtificialViscosity with
   /// the wave speed sqrt(p / rho) of the last step's pressure, rho the rest density of the options: none in free fall,
   /// and less the finer the particles. wcsph with its sound speed.
@@ -101,6 +106,9 @@ class DenseFlow {
   const DenseFlowOptions& options() const { return options_; }
   const CellList<Dim>& cells() const { return cells_; }
   const Neighbours<Dim>& neighbours() const { return neighbours_; }
+  /// What each particle saw of the terrain when it was sorted; empty without terrain.
+  const std::vector<Foot<Dim>>& feet() const { return feet_; }
+  const Foot<Dim>& foot(std::size_t i) const { return feet_.empty() ? nowhere<Dim> : feet_[i]; }
   const WallKernel<Dim>& wall_kernel() const { return wall_kernel_; }
   /// Of particles and scratch.
   std::size_t bytes() const;
@@ -109,6 +117,7 @@ class DenseFlow {
   DenseFlowOptions options_;
   WallKernel<Dim> wall_kernel_;
   CellList<Dim> cells_;
+  std::vector<Foot<Dim>> feet_;
   Neighbours<Dim> neighbours_;
   PressureSolver<Dim> pressure_solver_;
   ViscositySolver<Dim> viscosity_solver_;

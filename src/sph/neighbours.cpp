@@ -19,6 +19,7 @@ struct Neighbours<Dim>::Input {
   const CellList<Dim>& cells;
   const Walls<Dim>& walls;
   const WallKernel<Dim>& wall_kernel;
+  std::span<const Foot<Dim>> feet;
   const CoverView<Dim>& cover;
   bool no_slip;
   std::optional<Tree<Dim>> tree;
@@ -26,8 +27,9 @@ struct Neighbours<Dim>::Input {
 
 template <int Dim>
 void Neighbours<Dim>::find(const Particles<Dim>& particles, const CellList<Dim>& cells, const Walls<Dim>& walls,
-                           const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip,
-                           NeighbourSearch search) {
+                           const WallKernel<Dim>& wall_kernel, std::span<const Foot<Dim>> feet,
+                           const CoverView<Dim>& cover, bool no_slip, NeighbourSearch search) {
+  SPINDRIFT_CHECK(feet.size() == (walls.terrain ? particles.size() : 0));
   SPINDRIFT_CHECK(!cover.present() || cover.surface_normal->size() == cover.particles->size());
   const std::size_t n = particles.size();
   blocks_.resize((n + block_size - 1) / block_size);
@@ -38,7 +40,7 @@ void Neighbours<Dim>::find(const Particles<Dim>& particles, const CellList<Dim>&
   gradient_sum_.resize(n);
   if (no_slip) no_slip_.resize(n);
   const Points<Dim> points{particles.position};
-  Input input{particles, cells, walls, wall_kernel, cover, no_slip, {}};
+  Input input{particles, cells, walls, wall_kernel, feet, cover, no_slip, {}};
   if (search == NeighbourSearch::kd_tree)
     input.tree.emplace(Dim, points, nanoflann::KDTreeSingleIndexAdaptorParams(tree_leaf));
   with_kernel<Dim>(wall_kernel.shape(), wall_kernel.support_radius(), [&](const auto& kernel) {
@@ -162,10 +164,11 @@ template <class K>
 void Neighbours<Dim>::add_boundary(std::size_t i, const typename CellList<Dim>::Runs& cover_runs, const Input& input,
                                    const K& kernel) {
   const Vec<Dim>& x = input.particles.position[i];
-  const WallShare<Dim> walls = input.wall_kernel.share(input.walls, x);
+  const Foot<Dim>& foot = input.feet.empty() ? nowhere<Dim> : input.feet[i];
+  const WallShare<Dim> walls = input.wall_kernel.share(input.walls, x, foot);
   double share = walls.fraction;
   Vec<Dim> gradient = walls.gradient;
-  double drag = input.no_slip ? input.wall_kernel.no_slip_coefficient(input.walls, x) : 0;
+  double drag = input.no_slip ? input.wall_kernel.no_slip_coefficient(input.walls, x, foot) : 0;
   Vec<Dim> cover_gradient = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero();
   for (const auto& run : cover_runs) {
     for (std::uint32_t c = run.begin; c < run.end; ++c) {

@@ -47,10 +47,11 @@ class Neighbours {
   /// single particles that stand out of the cover are roughness, which the friction law stands for. Cover and walls are
   /// mirrors to the solvers (mirrored velocity, same pressure), so that one vector b stands for all of them. no_slip:
   /// also finds the viscous coefficient of the boundary, c = sum_c 2 V_c |dW/dr| / r + the walls' (WallKernel).
+  /// feet: of the terrain, one a particle, or none where there is no terrain.
   /// search: of the particles; the cover, which rests, is always looked up in its own cell list.
   void find(const Particles<Dim>& particles, const CellList<Dim>& cells, const Walls<Dim>& walls,
-            const WallKernel<Dim>& wall_kernel, const CoverView<Dim>& cover, bool no_slip,
-            NeighbourSearch search = NeighbourSearch::cell_list);
+            const WallKernel<Dim>& wall_kernel, std::span<const Foot<Dim>> feet, const CoverView<Dim>& cover,
+            bool no_slip, NeighbourSearch search = NeighbourSearch::cell_list);
 
   std::size_t size() const { return volume_sum_.size(); }
   Row row(std::size_t i) const {

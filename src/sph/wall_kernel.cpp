@@ -102,10 +102,10 @@ double WallKernel<Dim>::interpolate(const std::vector<double>& table, double s) 
 }
 
 template <int Dim>
-WallShare<Dim> WallKernel<Dim>::share(const Walls<Dim>& walls, const Vec<Dim>& x) const {
+WallShare<Dim> WallKernel<Dim>::share(const Walls<Dim>& walls, const Vec<Dim>& x, const Foot<Dim>& foot) const {
   double free = 1;
   Vec<Dim> free_gradient = Vec<Dim>::Zero();
-  walls.for_each_near(x, h_, [&](double distance, const Vec<Dim>& normal) {
+  walls.for_each_near(x, foot, h_, [&](double distance, const Vec<Dim>& normal) {
     const double s = offset_ + stretch_ * distance;
     const double open = 1 - fraction(s);
     free_gradient = free_gradient * open - (0.5 * stretch_ * free * slope(s)) * normal;
@@ -115,17 +115,18 @@ WallShare<Dim> WallKernel<Dim>::share(const Walls<Dim>& walls, const Vec<Dim>& x
 }
 
 template <int Dim>
-double WallKernel<Dim>::number_density_share(const Walls<Dim>& walls, const Vec<Dim>& x) const {
+double WallKernel<Dim>::number_density_share(const Walls<Dim>& walls, const Vec<Dim>& x, const Foot<Dim>& foot) const {
   double free = 1;
-  walls.for_each_near(x, h_, [&](double s, const Vec<Dim>&) { free *= 1 - number_density_fraction(s); });
+  walls.for_each_near(x, foot, h_, [&](double s, const Vec<Dim>&) { free *= 1 - number_density_fraction(s); });
   return 1 - free;
 }
 
 template <int Dim>
-double WallKernel<Dim>::no_slip_coefficient(const Walls<Dim>& walls, const Vec<Dim>& x) const {
+double WallKernel<Dim>::no_slip_coefficient(const Walls<Dim>& walls, const Vec<Dim>& x, const Foot<Dim>& foot) const {
   double c = 0;
-  walls.for_each_near(
-      x, h_, [&](double s, const Vec<Dim>&) { c -= stretch_ * slope(offset_ + stretch_ * s) / std::max(s, h_ / 16); });
+  walls.for_each_near(x, foot, h_, [&](double s, const Vec<Dim>&) {
+    c -= stretch_ * slope(offset_ + stretch_ * s) / std::max(s, h_ / 16);
+  });
   return c;
 }
 

@@ -42,16 +42,16 @@ class WallKernel {
   /// int W_n dV over all space [m^Dim].
   double number_density_integral() const { return number_density_integral_; }
 
-  /// J of all walls near x, and half its gradient.
-  WallShare<Dim> share(const Walls<Dim>& walls, const Vec<Dim>& x) const;
+  /// J of all walls near x, and half its gradient.   foot: the terrain's, of x; of no terrain it is nowhere.
+  WallShare<Dim> share(const Walls<Dim>& walls, const Vec<Dim>& x, const Foot<Dim>& foot) const;
   /// The number-density fraction of all walls near x.
-  double number_density_share(const Walls<Dim>& walls, const Vec<Dim>& x) const;
+  double number_density_share(const Walls<Dim>& walls, const Vec<Dim>& x, const Foot<Dim>& foot) const;
 
   /// Viscous coefficient of no-slip walls [m^-2]: the wall's drag on a particle is -mu V c v, c = -(dJ/ds) / s. With
   /// the wall's velocity extrapolated as the mirror image -v s'/s the integral of the Laplacian's kernel is 2 |dI/ds| /
   /// s exactly; J makes it the lattice's sum, so that a linear shear flow over a wall feels no force. s is at least h /
   /// 16, so that c stays finite.
-  double no_slip_coefficient(const Walls<Dim>& walls, const Vec<Dim>& x) const;
+  double no_slip_coefficient(const Walls<Dim>& walls, const Vec<Dim>& x, const Foot<Dim>& foot) const;
 
   std::size_t bytes() const;
 

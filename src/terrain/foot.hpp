@@ -1,6 +1,8 @@
 #pragma once
 /// What a position sees of the ground.
 
+#include <limits>
+
 #include "core/vec.hpp"
 
 namespace spindrift {
@@ -12,6 +14,10 @@ struct Foot {
   Vec<Dim> normal = up<Dim>();                ///< unit normal out of the ground
   Vec<Dim - 1> place = Vec<Dim - 1>::Zero();  ///< where on the ground, as its Terrain tells places [m]
 };
+
+/// Of a position that sees no ground.
+template <int Dim>
+inline const Foot<Dim> nowhere{.distance = std::numeric_limits<double>::infinity()};
 
 /// cos of the angle between a normal and the vertical.
 template <int Dim>

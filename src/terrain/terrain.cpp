@@ -1,5 +1,7 @@
 #include "terrain/terrain.hpp"
 
+#include "core/parallel.hpp"
+
 namespace spindrift {
 namespace {
 
@@ -30,6 +32,13 @@ Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& x, double reach) const {
     const Foot<2> at = profile()->foot(in_profile(x), reach);
     return {at.distance, lifted<Dim>(at.normal, 0), {at.place[0], x[1]}};
   }
+}
+
+template <int Dim>
+void Terrain<Dim>::find_feet(std::vector<Foot<Dim>>& feet, std::span<const Vec<Dim>> positions, double reach) const {
+  feet.resize(positions.size());
+  parallel_for(positions.size(),
+               [&](std::size_t i) { feet[i] = positions[i].allFinite() ? foot(positions[i], reach) : nowhere<Dim>; });
 }
 
 template <int Dim>

@@ -2,6 +2,7 @@
 /// The ground: a profile in the x-z plane, in 3D extruded along y, or in 3D a height field.
 
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -25,6 +26,10 @@ class Terrain {
   /// The nearest point of the surface; where it is farther than `reach` [m] only the distance's sign is right, and it
   /// is `reach` or more.
   Foot<Dim> foot(const Vec<Dim>& x, double reach = std::numeric_limits<double>::infinity()) const;
+
+  /// The foot of every position into `feet`. A position that is not finite counts as infinitely far above the ground.
+  void find_feet(std::vector<Foot<Dim>>& feet, std::span<const Vec<Dim>> positions,
+                 double reach = std::numeric_limits<double>::infinity()) const;
 
   /// The position at `place` and normal distance `distance` from the surface: the inverse of foot() where the surface
   /// is smooth.

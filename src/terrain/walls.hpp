@@ -25,10 +25,13 @@ struct Walls {
   /// Calls f(distance, normal) for the terrain, for every obstacle and for every closed side nearer than `reach` [m].
   template <class F>
   void for_each_near(const Vec<Dim>& x, double reach, F&& f) const {
-    if (terrain && !terrain->clears(x, reach)) {
-      const Foot<Dim> foot = terrain->foot(x);
-      if (foot.distance < reach) f(foot.distance, foot.normal);
-    }
+    for_each_near(x, terrain && !terrain->clears(x, reach) ? terrain->foot(x) : nowhere<Dim>, reach, f);
+  }
+
+  /// The same with the terrain's foot of x, which somebody found before.
+  template <class F>
+  void for_each_near(const Vec<Dim>& x, const Foot<Dim>& foot, double reach, F&& f) const {
+    if (foot.distance < reach) f(foot.distance, foot.normal);
     for (const Box<Dim>& obstacle : obstacles) {
       const BoxSurface<Dim> surface = surface_of<Dim>(obstacle, x);
       if (surface.distance < reach) f(surface.distance, surface.normal);

@@ -8,6 +8,7 @@
 #include "core/random.hpp"
 #include "entrainment/entrainment.hpp"
 #include "sph/sampling.hpp"
+#include "sph/standing_columns.hpp"
 
 using namespace spindrift;
 
@@ -78,7 +79,7 @@ template <int Dim>
 Particles<Dim> take(const EntrainmentOptions& options, Cover<Dim>& cover, const Terrain<Dim>& terrain,
                     const Particles<Dim>& snow, double dt, const BedFriction& friction = {0, 0}) {
   Entrainment<Dim> entrainment(options);
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, terrain, snow, &cover, cover.spacing, 2 * cover.spacing);
   return entrainment.take(cover, snow, columns, friction, down<Dim>(), {.time = 3, .dt = dt});
 }
@@ -203,7 +204,7 @@ TEMPLATE_TEST_CASE_SIG("D1: the share that is left is exp(-lambda t) at any dt, 
   SnowKind<Dim> kind{.spacing = d, .first_id = 1u << 30};
   kind.velocity[0] = 5;
   const Particles<Dim> snow = particles_at<Dim>(terrain, places, kind);
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, terrain, snow, &cover, d, 2 * d);
 
   const double m = 100 * std::pow(d, Dim);
@@ -234,7 +235,7 @@ TEMPLATE_TEST_CASE_SIG("D1: Eq. (16) literally depends on dt as (1 - P)^n", "[en
   SnowKind<Dim> kind{.spacing = d};
   kind.velocity[0] = 5;
   const Particles<Dim> snow = particles_at<Dim>(terrain, places, kind);
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, terrain, snow, &cover, d, 2 * d);
   const double section = Dim == 2 ? d : std::numbers::pi * d * d / 4;
   Entrainment<Dim> entrainment(
@@ -276,7 +277,7 @@ TEMPLATE_TEST_CASE_SIG("D2: the flux is Er whatever the spacing and the packing"
   for (std::uint64_t seed = 1; seed <= n_seeds; ++seed) {
     cover = start;
     Entrainment<Dim> entrainment({.rate = rate, .threshold = always});
-    Columns<Dim> columns;
+    StandingColumns<Dim> columns;
     double of_seed = 0, left = 0;
     for (int step = 0; step < std::lround(time / dt); ++step) {
       const Particles<Dim> snow = sliding_on<Dim>(terrain, cover, length, breadth, spacing);
@@ -305,7 +306,7 @@ TEST_CASE("D2 on a height field: the flux is Er per area of ground, whatever the
   Cover<3> cover =
       sample_cover<3>(terrain, {.to = size, .y = {0, size}, .depth = depth}, {.spacing = spacing, .density = 100});
   Entrainment<3> entrainment({.rate = rate, .threshold = always, .spontaneous = GENERATE(false, true)});
-  Columns<3> columns;
+  StandingColumns<3> columns;
   double taken = 0;
   const int steps = 200;
   for (int step = 0; step < steps; ++step) {
@@ -338,7 +339,7 @@ TEMPLATE_TEST_CASE_SIG("Entrainment is the same with any number of threads, and 
     const ThreadLimit limit(threads);
     Cover<Dim> cover = start;
     Entrainment<Dim> entrainment({.rate = 50, .threshold = always});
-    Columns<Dim> columns;
+    StandingColumns<Dim> columns;
     std::vector<std::uint64_t> ids;
     std::size_t warm = 0;
     for (int step = 0; step < 20; ++step) {

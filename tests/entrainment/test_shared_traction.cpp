@@ -4,6 +4,7 @@
 #include "entrainment/shared_traction.hpp"
 #include "sph/bed_friction.hpp"
 #include "sph/sampling.hpp"
+#include "sph/standing_columns.hpp"
 
 using namespace spindrift;
 
@@ -21,7 +22,7 @@ Terrain<Dim> level() {
 template <int Dim>
 struct Slide {
   Particles<Dim> snow;
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   std::vector<BedFlux<Dim>> fluxes;
 
   Slide(double speed, double flux) {

@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 #include "sph/bed_friction.hpp"
 #include "sph/sampling.hpp"
+#include "sph/standing_columns.hpp"
 
 using namespace spindrift;
 
@@ -32,7 +33,7 @@ Particles<Dim> row(const Terrain<Dim>& terrain) {
 /// Gravity, friction, a rigid bed, motion; returns what the bed took from friction over all steps.
 template <int Dim>
 Vec<Dim> slide(Particles<Dim>& snow, const Terrain<Dim>& terrain, const BedFriction& friction, double dt, int steps) {
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   Vec<Dim> impulse = Vec<Dim>::Zero();
   for (int step = 0; step < steps; ++step) {
     build_columns<Dim>(columns, terrain, snow, nullptr, d, h);
@@ -114,7 +115,7 @@ TEMPLATE_TEST_CASE_SIG("A17: Voellmy terminal speed to 1e-6 at any dt", "[fricti
   const Terrain<Dim> terrain = incline<Dim>(angle);
   Particles<Dim> snow =
       sample_slab<Dim>(terrain, {.at = 100, .length = 0.2, .thickness = 1, .y = {0, 0.2}}, {.spacing = d});
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, terrain, snow, nullptr, d, h);
   REQUIRE(columns.columns.size() == 1);
   const Vec<Dim> normal = columns.foot[0].normal;
@@ -139,7 +140,7 @@ TEMPLATE_TEST_CASE_SIG("Airborne snow, cliff faces and overhangs feel no frictio
   snow.position[2][0] = 5, snow.position[2][Dim - 1] = 0.05;     // on the ground
   for (Vec<Dim>& v : snow.velocity) v.setConstant(-2);
   const std::vector<Vec<Dim>> before = snow.velocity;
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, terrain, snow, nullptr, d, h);
   apply_column_friction<Dim>(snow, columns, {}, down<Dim>(), 0.01);
   CHECK(snow.velocity[0] == before[0]);
@@ -160,7 +161,7 @@ TEMPLATE_TEST_CASE_SIG("Friction of the base acts on the basal row, with the sol
       sample_slab<Dim>(terrain, {.at = 1, .length = 0.4, .thickness = 0.3, .y = {0, 0.2}}, {.spacing = d});
   for (Vec<Dim>& v : snow.velocity) v[0] = 4;
   std::vector<double> normal_impulse(snow.size(), 0);
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, terrain, snow, nullptr, d, h);
   const double m = snow.mass[0], dt = 0.05;
   for (std::size_t i = 0; i < snow.size(); ++i)
@@ -213,7 +214,7 @@ TEMPLATE_TEST_CASE_SIG("What the snow loses is what the bed gets, the same with 
     for (std::size_t i = 0; i < snow.size(); ++i) snow.velocity[i][0] = 3 + std::sin(static_cast<double>(i));
     Vec<Dim> before = Vec<Dim>::Zero(), after = Vec<Dim>::Zero();
     for (std::size_t i = 0; i < snow.size(); ++i) before += snow.mass[i] * snow.velocity[i];
-    Columns<Dim> columns;
+    StandingColumns<Dim> columns;
     build_columns<Dim>(columns, terrain, snow, nullptr, d, h);
     const Vec<Dim> impulse = apply_column_friction<Dim>(snow, columns, {}, down<Dim>(), 0.01);
     for (std::size_t i = 0; i < snow.size(); ++i) after += snow.mass[i] * snow.velocity[i];

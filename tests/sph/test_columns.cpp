@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "sph/columns.hpp"
 #include "sph/sampling.hpp"
+#include "sph/standing_columns.hpp"
 
 using namespace spindrift;
 
@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE_SIG("A lattice on the ground has columns of its own height", 
   const Terrain<Dim> terrain({{0, 0}, {60, -36}});
   Particles<Dim> snow = sample_slab<Dim>(terrain, slab, {.spacing = d, .density = 300});
   for (Vec<Dim>& v : snow.velocity) v[0] = 2;
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, terrain, snow, nullptr, d, h);
   REQUIRE(columns.columns.size() == 20 * (Dim == 3 ? 5 : 1));
   for (const Column<Dim>& c : columns.columns) {
@@ -88,7 +88,7 @@ TEMPLATE_TEST_CASE_SIG("Snow over an air gap is not of the column", "[columns]",
   const double gap = GENERATE(0.0, 0.19, 0.21, 5.0);
   const Particles<Dim> snow =
       particles_at<Dim>({at<Dim>(0.05, 0.05 + d + gap), at<Dim>(0.05, 0.05), at<Dim>(1.05, 0.05 + gap)});
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, flat_ground<Dim>(), snow, nullptr, d, h);
   REQUIRE(columns.columns.size() == 2);
   const Column<Dim>&pile = columns.columns[0], &single = columns.columns[1];
@@ -96,7 +96,7 @@ TEMPLATE_TEST_CASE_SIG("Snow over an air gap is not of the column", "[columns]",
   CHECK(columns.over_bin(pile)[0] == 1);
   CHECK(columns.standing(pile).size() == (gap < h ? 2u : 1u));
   CHECK(columns.standing(single).size() == (gap < h ? 1u : 0u));
-  CHECK(single.thickness == (gap < h ? d : 0));
+  CHECK(single.thickness == Approx(gap < h ? std::pow(d, Dim) / area<Dim>() : 0));
   CHECK(single.mass_per_area == Approx(gap < h ? 300 * std::pow(d, Dim) / area<Dim>() : 0));
 }
 
@@ -110,7 +110,7 @@ TEMPLATE_TEST_CASE_SIG("The bed is the cover's surface and falls with it", "[col
   cover.hazard.assign(3, 0);
   index_cover(cover);
   const Particles<Dim> snow = particles_at<Dim>({at<Dim>(0.05, 0.35), at<Dim>(0.95, 0.35)});
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
 
   for (const double surface : {0.3, 0.2, 0.1, 0.0}) {
     build_columns<Dim>(columns, flat_ground<Dim>(), snow, &cover, d, h);
@@ -159,7 +159,7 @@ TEMPLATE_TEST_CASE_SIG("Compaction keeps order and neighbours of the live slots"
 
 TEMPLATE_TEST_CASE_SIG("Columns stand hostile snow, use no memory for empty ground, and allocate once", "[columns]",
                        ((int Dim), Dim), 2, 3) {
-  Columns<Dim> columns;
+  StandingColumns<Dim> columns;
   build_columns<Dim>(columns, flat_ground<Dim>(), Particles<Dim>{}, nullptr, d, h);
   CHECK(columns.columns.empty());
   CHECK(columns.find({}) == nullptr);
@@ -177,7 +177,7 @@ TEMPLATE_TEST_CASE_SIG("Columns stand hostile snow, use no memory for empty grou
   CHECK(columns.standing(column).size() == columns.over_bin(column).size() - 1);
 
   snow = particles_at<Dim>({at<Dim>(-1e6, 0.05), at<Dim>(1e6, 0.05)});
-  Columns<Dim> sparse;
+  StandingColumns<Dim> sparse;
   build_columns<Dim>(sparse, flat_ground<Dim>(), snow, nullptr, d, h);
   CHECK(sparse.columns.size() == 2);
   CHECK(sparse.bytes() < 4096);
@@ -192,7 +192,7 @@ TEMPLATE_TEST_CASE_SIG("Columns do not depend on the number of threads or the or
   const Cover<Dim> source =
       sample_cover<Dim>(terrain, {.to = 40, .y = {0, 2}, .depth = 0.5}, {.spacing = d, .density = 300});
   Particles<Dim> snow = source.particles;
-  Columns<Dim> columns, again;
+  StandingColumns<Dim> columns, again;
   build_columns<Dim>(columns, terrain, snow, nullptr, d, h);
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);

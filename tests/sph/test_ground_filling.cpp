@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "core/parallel.hpp"
-#include "sph/columns.hpp"
 #include "sph/sampling.hpp"
+#include "sph/standing_columns.hpp"
 
 using namespace spindrift;
 
@@ -142,7 +142,7 @@ TEST_CASE("Columns on a height field are per area of ground", "[columns][height_
   GroundLayer all{.extent = {{0, 0}, {6, 6}}, .base = 0, .thickness = thickness, .spacing = d};
   const Particles<3> snow =
       sample_area(*terrain.height_field(), all, {.spacing = d, .density = 300}, [](const Vec<2>&) { return true; });
-  Columns<3> columns;
+  StandingColumns<3> columns;
   build_columns<3>(columns, terrain, snow, nullptr, d, 2 * d);
   double mass = 0, mean_thickness = 0, n = 0;
   for (const Column<3>& c : columns.columns) {

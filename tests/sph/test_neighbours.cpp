@@ -113,7 +113,7 @@ TEMPLATE_TEST_CASE_SIG("sums over neighbours, cover and walls match brute force"
   flow.sort_and_find_neighbours(walls, {&cover, &cover_cells, &normals}, stages);
   const Kernel<Dim, Shape> kernel(h);
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const WallShare<Dim> wall = flow.wall_kernel().share(walls, p.position[i]);
+    const WallShare<Dim> wall = flow.wall_kernel().share(walls, p.position[i], flow.foot(i));
     double sum = wall.fraction;
     Vec<Dim> boundary = Vec<Dim>::Zero(), normal = Vec<Dim>::Zero(), all = Vec<Dim>::Zero();
     for (std::size_t j = 0; j < p.size(); ++j) {

@@ -82,7 +82,7 @@ TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", 
   walls.domain = {Vec<Dim>::Constant(-10), Vec<Dim>::Constant(10)};
   walls.domain.lower[Dim - 1] = 0;
   walls.sides[Dim - 1][0] = Side::closed;
-  const WallShare<Dim> share = wall.share(walls, 0.5 * d * Vec<Dim>::Unit(Dim - 1));
+  const WallShare<Dim> share = wall.share(walls, 0.5 * d * Vec<Dim>::Unit(Dim - 1), nowhere<Dim>);
   Index<Dim> shape;
   shape.fill(7);
   double sum = share.fraction, lattice = 0, shear = 0;
@@ -100,7 +100,7 @@ TEMPLATE_TEST_CASE_SIG("a lattice d/2 above a wall is full and in equilibrium", 
   CHECK(sum == Approx(lattice).margin(1e-5));
   CHECK(gradient.norm() * h < 1e-3);
   // u = z over a no-slip wall at z = 0 is force-free
-  shear += wall.no_slip_coefficient(walls, 0.5 * d * Vec<Dim>::Unit(Dim - 1)) * 0.5 * d;
+  shear += wall.no_slip_coefficient(walls, 0.5 * d * Vec<Dim>::Unit(Dim - 1), nowhere<Dim>) * 0.5 * d;
   CHECK(shear * d < 2e-3);
   CHECK(shear * d > -2e-3);
 }
@@ -113,19 +113,22 @@ TEMPLATE_TEST_CASE_SIG("at a corner the free fractions multiply", "[wall_kernel]
   for (int k = 0; k + 1 < Dim; ++k) floor.sides[k] = {Side::open, Side::open};
   const double s = GENERATE(0.3, 0.5, 0.8) * 0.1;
   const Vec<Dim> x = Vec<Dim>::Constant(s);
-  const WallShare<Dim> share = wall.share(walls, x);
-  CHECK(share.fraction == Approx(1 - std::pow(1 - wall.share(floor, x).fraction, Dim)));
+  const WallShare<Dim> share = wall.share(walls, x, nowhere<Dim>);
+  CHECK(share.fraction == Approx(1 - std::pow(1 - wall.share(floor, x, nowhere<Dim>).fraction, Dim)));
   for (int k = 0; k < Dim; ++k) {
     const double e = 1e-4;
     const Vec<Dim> step = e * Vec<Dim>::Unit(k);
-    const double slope = (wall.share(walls, x + step).fraction - wall.share(walls, x - step).fraction) / (2 * e);
+    const double slope =
+        (wall.share(walls, x + step, nowhere<Dim>).fraction - wall.share(walls, x - step, nowhere<Dim>).fraction) /
+        (2 * e);
     CHECK(2 * share.gradient[k] == Approx(slope).epsilon(1e-2));
     CHECK(share.gradient[k] < 0);
   }
-  CHECK(wall.number_density_share(walls, x) == Approx(1 - std::pow(1 - wall.number_density_fraction(s), Dim)));
-  CHECK(wall.share(walls, Vec<Dim>::Constant(0.5)).fraction == 0);
-  CHECK(wall.no_slip_coefficient(walls, Vec<Dim>::Constant(0.5)) == 0);
-  CHECK(std::isfinite(wall.no_slip_coefficient(walls, Vec<Dim>::Zero())));
+  CHECK(wall.number_density_share(walls, x, nowhere<Dim>) ==
+        Approx(1 - std::pow(1 - wall.number_density_fraction(s), Dim)));
+  CHECK(wall.share(walls, Vec<Dim>::Constant(0.5), nowhere<Dim>).fraction == 0);
+  CHECK(wall.no_slip_coefficient(walls, Vec<Dim>::Constant(0.5), nowhere<Dim>) == 0);
+  CHECK(std::isfinite(wall.no_slip_coefficient(walls, Vec<Dim>::Zero(), nowhere<Dim>)));
 }
 
 TEMPLATE_TEST_CASE_SIG("snow is full where its lattice is, and at 1 with the cubic spline over two spacings",
