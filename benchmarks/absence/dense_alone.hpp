@@ -58,7 +58,8 @@ struct DenseAlone {
     const double dt = std::min(max_step, dense.time_step_limit(cfl, gravity.norm()));
     const CoverView<2> view =
         cover ? CoverView<2>{&cover->particles, &cover->cells, &cover->surface_normal} : CoverView<2>{};
-    dense.sort_and_find_neighbours(walls, view, stages);
+    dense.sort(walls, stages);
+    dense.find_neighbours(walls, view, stages);
     Particles<2>& p = dense.particles;
     parallel_for(p.size(), [&](std::size_t i) { p.velocity[i] += dt * gravity; });
     from_gravity = dt * parallel_sum(p.size(), 0.0, [&](std::size_t i) { return p.mass[i]; }) * gravity;

@@ -72,6 +72,8 @@ class Entrainment {
   /// Of the last take(): the mean flux that the rule stands for, of each bin with candidates.
   std::span<const BedFlux<Dim>> fluxes() const { return fluxes_; }
   const EntrainmentOptions& options() const { return options_; }
+  /// What the last take() returned.
+  const Particles<Dim>& taken() const { return entrained_; }
   std::size_t bytes() const {
     return entrained_.bytes() + spindrift::bytes(patches_) + spindrift::bytes(candidates_, taken_) +
            spindrift::bytes(bins_taken_) + spindrift::bytes(fluxes_);

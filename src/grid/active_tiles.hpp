@@ -28,6 +28,22 @@ class ActiveTiles {
   /// Marks the neighbours of marked tiles, `margin` times.
   void add_margin();
 
+  /// Calls f(the box of its cells, inside the whole grid) for every marked tile.
+  template <class F>
+  void for_each_marked(F&& f) const {
+    if (!marked_) return;
+    Index<Dim> shape;
+    for (int k = 0; k < Dim; ++k) shape[k] = marked_->last[k] - marked_->first[k] + 1;
+    for_each_index<Dim>(shape, [&](Index<Dim> tile) {
+      for (int k = 0; k < Dim; ++k) tile[k] += marked_->first[k];
+      if (!marks_[tile]) return;
+      const MacGrid<Dim> cells = cells_of({tile, tile});
+      Index<Dim> end{};
+      for (int k = 0; k < Dim; ++k) end[k] = cells.cells[k];
+      f(Box<Dim>{cells.node(Index<Dim>{}), cells.node(end)});
+    });
+  }
+
   /// A box of tiles that holds the marked ones: `old` where it does and is not far too large, else with room to grow
   /// where they reach out of `old`. One tile in the grid's corner where none is marked.
   MacGrid<Dim> window(const MacGrid<Dim>& old) const;

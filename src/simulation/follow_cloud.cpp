@@ -26,6 +26,7 @@ void Simulation<Dim>::follow_cloud() {
   if (n_steps_ % std::max<std::uint64_t>(steps_between_looks, 1) != 0) return;
   const auto timed = stages_.time("suspension.tiles");
   mark_tiles();
+  wake_cover_under_air();
   const MacGrid<Dim> window = tiles_->window(suspension_->grid());
   const auto book = [&](const typename Suspension<Dim>::Forgotten& forgotten) {
     report_.forgotten += forgotten.momentum;

@@ -12,6 +12,7 @@ namespace spindrift {
 /// Masses since the start [kg], in 2D per metre of width.
 struct MassLedger {
   double initial = 0;                                          ///< released snow, cover and smoke at the start
+  double laid = 0;                                             ///< sleeping cover that became particles
   double injected = 0;                                         ///< smoke from sources
   double generated = 0;                                        ///< particles to smoke
   double adhered = 0;                                          ///< smoke to particles

@@ -38,7 +38,7 @@ Rasters::Rasters(const Simulation<3>& simulation)
     peaks_.thickness.resize(area_.size());
     peaks_.speed.resize(area_.size());
     peaks_.pressure.resize(area_.size());
-    if (simulation.cover()) first_cover_ = cover_thickness(*simulation.cover());
+    if (simulation.cover()) taken_.resize(area_.size());
   }
   if (simulation.suspension()) {
     air_ = make_grid<3>(simulation.scene(), simulation.walls());
@@ -50,6 +50,7 @@ Rasters::Rasters(const Simulation<3>& simulation)
 
 void Rasters::follow(const Simulation<3>& simulation) {
   const double now = simulation.time();
+  if (simulation.taken()) add_taken(*simulation.taken(), *simulation.walls().terrain);
   if (simulation.dense() && now >= next_snow_) {
     next_snow_ = next_sample(now, blocks_.dx / 2, sum_up(simulation));
     raise(peaks_);
@@ -120,16 +121,12 @@ void Rasters::raise(Cloud& cloud, const Suspension<3>& suspension) const {
   parallel_for(static_cast<std::size_t>(cells[1]), look_at_row, 1);
 }
 
-std::vector<double> Rasters::cover_thickness(const Cover<3>& cover) const {
-  std::vector<double> thickness(area_.size());
-  for (std::size_t slot = 0; slot < cover.particles.size(); ++slot) {
-    const Stencil<2> around =
-        cell_stencil<2>(blocks_, seen_from_above(cover.foot[slot], cover.particles.position[slot]));
-    for (std::size_t c = 0; c < Stencil<2>::n; ++c)
-      thickness[around.point[c]] += around.weight[c] * cover.particles.volume[slot];
+void Rasters::add_taken(const Particles<3>& taken, const Terrain<3>& terrain) {
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    const Vec<3>& x = taken.position[i];
+    const Stencil<2> around = cell_stencil<2>(blocks_, seen_from_above(terrain.foot(x), x));
+    for (std::size_t c = 0; c < Stencil<2>::n; ++c) taken_[around.point[c]] += around.weight[c] * taken.volume[i];
   }
-  for (std::size_t block = 0; block < thickness.size(); ++block) thickness[block] /= area_[block];
-  return thickness;
 }
 
 Raster Rasters::raster(const std::string& name, const MacGrid<2>& from, std::span<const double> values) const {
@@ -156,10 +153,9 @@ std::vector<Raster> Rasters::maps(const Simulation<3>& simulation) {
     add("deposit", blocks_, thickness);
   }
   if (simulation.cover()) {
-    std::vector<double> taken = cover_thickness(*simulation.cover());
-    for (std::size_t block = 0; block < taken.size(); ++block)
-      taken[block] = std::max(0.0, first_cover_[block] - taken[block]);
-    add("erosion", blocks_, taken);
+    std::vector<double> thickness(area_.size());
+    for (std::size_t block = 0; block < thickness.size(); ++block) thickness[block] = taken_[block] / area_[block];
+    add("erosion", blocks_, thickness);
   }
   if (const auto& air = simulation.suspension()) {
     Cloud cloud = cloud_;
@@ -178,7 +174,7 @@ std::vector<Raster> Rasters::maps(const Simulation<3>& simulation) {
 }
 
 std::size_t Rasters::bytes() const {
-  return spindrift::bytes(area_, first_cover_, cloud_.densest) +
+  return spindrift::bytes(area_, taken_, cloud_.densest) +
          spindrift::bytes(peaks_.thickness, peaks_.speed, peaks_.pressure) + spindrift::bytes(sums_) +
          spindrift::bytes(touched_) + spindrift::bytes(places_) + spindrift::bytes(cloud_.highest);
 }

@@ -29,7 +29,7 @@ class Rasters {
   /// Pre: the scene has a terrain.   Throws Error(would_not_fit).
   explicit Rasters(const Simulation<3>& simulation);
 
-  /// Takes the samples that are due.
+  /// After every step: takes the samples that are due.
   void follow(const Simulation<3>& simulation);
 
   /// The maps so far, of the layers that the scene has; the state as it stands counts among the peaks. To four
@@ -60,7 +60,7 @@ class Rasters {
   double sum_up(const Simulation<3>& simulation);
   void raise(Peaks& peaks) const;
   void raise(Cloud& cloud, const Suspension<3>& suspension) const;
-  std::vector<double> cover_thickness(const Cover<3>& cover) const;
+  void add_taken(const Particles<3>& taken, const Terrain<3>& terrain);
   Raster raster(const std::string& name, const MacGrid<2>& from, std::span<const double> values) const;
 
   ElevationGrid empty_;
@@ -74,7 +74,7 @@ class Rasters {
   std::vector<Vec<2>> places_;          ///< scratch: of each particle's foot
   double least_thickness_ = 0;          ///< for speed and pressure [m]
   Peaks peaks_;
-  std::vector<double> first_cover_;  ///< thickness of the cover at the start [m]
+  std::vector<double> taken_;  ///< volume of the cover that was taken [m^3]
 
   MacGrid<3> air_;      ///< the whole grid of the air, of which the suspension may hold a part
   MacGrid<2> columns_;  ///< of that grid

@@ -87,6 +87,10 @@ void add_snow(Registry& r) {
       .plain<&C::file>("file",
                        "in place of areas: a shapefile or another map of polygons; their `thickness` or `d0` counts "
                        "where no depth is said")
+      .plain<&C::sleeping>(
+          "sleeping",
+          "on 3D grounds: snow is made where flow or air comes near, not all at the start; the flow is "
+          "the same")
       .number<&C::relaxation_steps>("relaxation_steps", "", from(0, 1e5), "of the sampling", "Sec. 4.5");
 }
 

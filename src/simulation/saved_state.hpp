@@ -24,7 +24,7 @@ struct BackOff {
 };
 
 /// All that steers the steps to come, and what tells of the last one. Terrain, obstacles and options never change; the
-/// cover, and with it the ground of the air, only where it is entrained.
+/// cover, and with it the ground of the air, only where it is entrained or laid.
 template <int Dim>
 struct SavedState {
   double time = 0;  ///< [s]

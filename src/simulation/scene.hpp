@@ -136,6 +136,7 @@ struct CoverSection {
   std::vector<std::vector<std::array<double, 2>>> areas;
   std::string file;  ///< of the areas, empty once they are read
   int relaxation_steps = 40;
+  bool sleeping = true;  ///< on a height field it is laid where something comes near
 };
 
 struct ConfinementSection {

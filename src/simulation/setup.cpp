@@ -31,6 +31,33 @@ ForceLaw law_of(const std::string& word) {
   return word == "paper" ? ForceLaw::paper : ForceLaw::air;
 }
 
+template <int Dim>
+CoverLayer cover_layer(const Scene& scene, const Walls<Dim>& walls) {
+  CoverLayer layer;
+  layer.ground_from = ground_at(walls, walls.domain.lower[0]);
+  layer.ground_to = ground_at(walls, walls.domain.upper[0]);
+  const double begin = way_begins(walls);
+  layer.from = std::max(begin + scene.cover->from, layer.ground_from);
+  layer.to = scene.cover->to < 0 ? layer.ground_to : begin + scene.cover->to;
+  if (walls.terrain->height_field()) layer.to = std::min(layer.to, layer.ground_to);
+  layer.y = breadth_of(walls.domain);
+  layer.depth = scene.cover->depth;
+  if (!scene.cover->areas.empty()) {
+    layer.within = extent_of(scene.cover->areas.front());
+    for (const Outline& area : scene.cover->areas) layer.within = hull_of(layer.within, extent_of(area));
+    layer.accepts = [areas = scene.cover->areas](const Vec<2>& place) { return inside_any(areas, place); };
+  }
+  layer.seed = scene.scene.seed;
+  layer.relaxation_steps = scene.cover->relaxation_steps;
+  layer.support_radius = scene.dense_flow->support_radius;
+  return layer;
+}
+
+template <int Dim>
+SnowKind<Dim> cover_snow(const Scene& scene, std::uint64_t first_id) {
+  return {.spacing = scene.dense_flow->spacing(), .density = scene.cover->density, .first_id = first_id};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -55,28 +82,15 @@ Walls<Dim> make_walls(const Scene& scene) {
 template <int Dim>
 std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls, std::uint64_t first_id) {
   if (!scene.cover) return std::nullopt;
-  CoverLayer layer;
-  layer.ground_from = ground_at(walls, walls.domain.lower[0]);
-  layer.ground_to = ground_at(walls, walls.domain.upper[0]);
-  const double begin = way_begins(walls);
-  layer.from = std::max(begin + scene.cover->from, layer.ground_from);
-  layer.to = scene.cover->to < 0 ? layer.ground_to : begin + scene.cover->to;
-  if (walls.terrain->height_field()) layer.to = std::min(layer.to, layer.ground_to);
-  layer.y = breadth_of(walls.domain);
-  layer.depth = scene.cover->depth;
-  if (!scene.cover->areas.empty()) {
-    layer.within = extent_of(scene.cover->areas.front());
-    for (const Outline& area : scene.cover->areas) layer.within = hull_of(layer.within, extent_of(area));
-    layer.accepts = [&areas = scene.cover->areas](const Vec<2>& place) { return inside_any(areas, place); };
-  }
-  layer.seed = scene.scene.seed;
-  layer.relaxation_steps = scene.cover->relaxation_steps;
-  layer.support_radius = scene.dense_flow->support_radius;
-  SnowKind<Dim> kind;
-  kind.spacing = scene.dense_flow->spacing();
-  kind.density = scene.cover->density;
-  kind.first_id = first_id;
+  const CoverLayer layer = cover_layer(scene, walls);
+  const SnowKind<Dim> kind = cover_snow<Dim>(scene, first_id);
+  if (walls.terrain->height_field()) return bare_cover<Dim>(layer, kind);
   return sample_cover<Dim>(*walls.terrain, layer, kind, walls.obstacles);
+}
+
+std::optional<SleepingCover> make_sleeping_cover(const Scene& scene, const Walls<3>& walls) {
+  if (!scene.cover || !walls.terrain->height_field()) return std::nullopt;
+  return SleepingCover(cover_layer(scene, walls), cover_snow<3>(scene, 0), walls.obstacles);
 }
 
 template <int Dim>

@@ -12,6 +12,7 @@
 #include "sph/bed_friction.hpp"
 #include "sph/cover.hpp"
 #include "sph/dense_flow.hpp"
+#include "sph/sleeping_cover.hpp"
 #include "terrain/walls.hpp"
 
 namespace spindrift {
@@ -23,9 +24,12 @@ Vec<Dim> make_gravity(const Scene& scene);
 template <int Dim>
 Walls<Dim> make_walls(const Scene& scene);
 
-/// The cover at rest, ids from `first_id`; empty without [cover].
+/// The cover at rest, ids from `first_id`, on a height field without particles yet; empty without [cover].
 template <int Dim>
 std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls, std::uint64_t first_id);
+
+/// What lays the cover of a height field; empty without [cover] and on a profile.
+std::optional<SleepingCover> make_sleeping_cover(const Scene& scene, const Walls<3>& walls);
 
 /// The dense flow with the released snow in it, ids from 0; empty without [dense_flow].
 template <int Dim>

@@ -55,6 +55,7 @@ Simulation<Dim>::Simulation(const Scene& scene)
   }
   cover_ = make_cover<Dim>(scene_, walls_, dense_ ? dense_->particles.size() : 0);
   if (const auto options = make_entrainment(scene_)) entrainment_.emplace(*options);
+  lay_first_cover();
   if (suspension_ && (walls_.terrain || !walls_.obstacles.empty())) {
     ground_.emplace(walls_, suspension_->grid(), cover_ ? &*cover_ : nullptr);
     suspension_->set_ground(ground_->node_distance());
@@ -125,8 +126,9 @@ void Simulation<Dim>::predict_velocities() {
   if (dense_) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool in_columns = bed_friction_ || entrainment_;
-    dense_->sort_and_find_neighbours(walls_, cover_view(), stages_,
-                                     in_columns ? infinity : dense_->options().support_radius);
+    dense_->sort(walls_, stages_, in_columns ? infinity : dense_->options().support_radius);
+    wake_cover_near_snow(dense_->feet());
+    dense_->find_neighbours(walls_, cover_view(), stages_);
     Particles<Dim>& p = dense_->particles;
     parallel_for(p.size(), [&](std::size_t i) { p.velocity[i] += dt_ * gravity_; });
     report_.gravity_on_dense = dt_ * total_mass(p) * gravity_;
@@ -224,7 +226,7 @@ void Simulation<Dim>::entrain_cover() {
   masses_.entrained += entrainment_->mass_taken();
   if (ground_) {
     const std::span<const Span> moved = ground_->follow(*cover_, taken.position);
-    report_.ground_on_air = suspension_->set_ground(ground_->node_distance(), moved);
+    report_.ground_on_air += suspension_->set_ground(ground_->node_distance(), moved);
   }
 }
 
@@ -287,7 +289,7 @@ double Simulation<Dim>::smoke_mass() const {
 template <int Dim>
 double Simulation<Dim>::mass_error() const {
   const double now = dense_mass() + cover_mass() + smoke_mass() + masses_.outflow() + masses_.deposited;
-  const double brought = masses_.initial + masses_.injected;
+  const double brought = masses_.initial + masses_.laid + masses_.injected;
   return brought > 0 ? now / brought - 1 : now;
 }
 
@@ -296,7 +298,7 @@ std::vector<std::pair<std::string, std::size_t>> Simulation<Dim>::memory() const
   std::vector<std::pair<std::string, std::size_t>> parts;
   if (walls_.terrain) parts.emplace_back("terrain", walls_.terrain->bytes());
   if (dense_) parts.emplace_back("dense_flow", dense_->bytes() + columns_.bytes() + bytes(normal_impulse_));
-  if (cover_) parts.emplace_back("cover", cover_->bytes());
+  if (cover_) parts.emplace_back("cover", cover_->bytes() + (sleeping_ ? sleeping_->bytes() : 0));
   if (suspension_)
     parts.emplace_back("suspension",
                        suspension_->bytes() + (ground_ ? ground_->bytes() : 0) + (tiles_ ? tiles_->bytes() : 0));

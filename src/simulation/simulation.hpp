@@ -41,6 +41,8 @@ class Simulation {
   const Vec<Dim>& gravity() const { return gravity_; }
   const std::optional<DenseFlow<Dim>>& dense() const { return dense_; }
   const std::optional<Cover<Dim>>& cover() const { return cover_; }
+  /// Cover that was taken in the last step; null where none can be.
+  const Particles<Dim>* taken() const { return entrainment_ ? &entrainment_->taken() : nullptr; }
   const std::optional<Suspension<Dim>>& suspension() const { return suspension_; }
   /// 1 for particles of the overlap region in the last step, one a particle; empty where the
   /// scene lacks dense flow or suspension. It needs no coupling: the core of the air is the snow outside overlap.
@@ -52,9 +54,9 @@ class Simulation {
   Stages& stages() { return stages_; }
   std::size_t n_dense_initial() const { return n_dense_initial_; }
   double dense_mass() const;  ///< [kg]
-  double cover_mass() const;  ///< [kg]
+  double cover_mass() const;  ///< of what is laid [kg]
   double smoke_mass() const;  ///< [kg]
-  /// (dense + cover + smoke + outflow + deposit) / (initial + injected) - 1.
+  /// (dense + cover + smoke + outflow + deposit) / (initial + laid + injected) - 1.
   double mass_error() const;
   /// Bytes of state and scratch, by part, of the parts that the scene has: "terrain", "dense_flow", "cover",
   /// "suspension", "smoke_source", "core", "coupling", "entrainment", "saved_state".
@@ -76,6 +78,10 @@ class Simulation {
   void try_step(const TimeStep& step);
   void go_back();
   TimeStep choose_time_step() const;
+  void lay_first_cover();
+  void wake_cover_near_snow(std::span<const Foot<Dim>> feet);
+  void wake_cover_under_air();
+  void wake_cover(const std::vector<std::uint8_t>& called);
   void follow_cloud();
   void mark_tiles();
   typename Suspension<Dim>::Forgotten move_window(const MacGrid<Dim>& window);
@@ -99,6 +105,7 @@ class Simulation {
   std::vector<double> normal_impulse_;
 
   std::optional<Cover<Dim>> cover_;
+  std::optional<SleepingCover> sleeping_;  ///< on a height field, while not all of it is laid
   std::optional<GroundSurface<Dim>> ground_;
 
   std::optional<ActiveTiles<Dim>> tiles_;

@@ -71,7 +71,7 @@ void Simulation<Dim>::save(SavedState<Dim>& state) const {
   state.report = report_;
   state.overlap = overlap_;
   if (dense_) state.dense = dense_->particles;
-  if (entrainment_) state.cover = cover_;
+  if (entrainment_ || sleeping_) state.cover = cover_;
   if (suspension_) suspension_->save(state.suspension ? *state.suspension : state.suspension.emplace());
 }
 
@@ -84,10 +84,10 @@ void Simulation<Dim>::restore(const SavedState<Dim>& state) {
   report_ = state.report;
   overlap_ = state.overlap;
   if (dense_) dense_->particles = state.dense;
-  if (entrainment_) cover_ = state.cover;
+  if (entrainment_ || sleeping_) cover_ = state.cover;
   if (suspension_ && !same_window<Dim>(state.suspension->grid, suspension_->grid()))
     move_window(state.suspension->grid);
-  if (entrainment_) {
+  if (entrainment_ || sleeping_) {
     if (ground_) {
       ground_->follow(*cover_);
       suspension_->set_ground(ground_->node_distance());

@@ -14,7 +14,7 @@
 namespace spindrift {
 
 /// Slots of resting particles. An entrained particle leaves a dead slot behind, of mass and volume 0.
-/// State are particles, foot and hazard; the rest is derived by index_cover and settle_surface.
+/// State are particles, foot, hazard and laid; the rest is derived by index_cover and settle_surface.
 template <int Dim>
 struct Cover {
   double spacing = 0;         ///< d [m]
@@ -27,6 +27,7 @@ struct Cover {
   std::vector<Foot<Dim>> foot;  ///< of every slot, as sampled
   std::vector<double> hazard;   ///< integral of the rate of entrainment so far (R15) [-]
   std::size_t n_dead = 0;
+  std::vector<std::uint8_t> laid;  ///< 1: the plots that SleepingCover has laid, one a plot; else empty
   /// Where ground goes on, in places [m]: beyond, the surface is taken to go on level.
   Vec<Dim - 1> ground_lower = Vec<Dim - 1>::Constant(-std::numeric_limits<double>::infinity());
   Vec<Dim - 1> ground_upper = Vec<Dim - 1>::Constant(std::numeric_limits<double>::infinity());
@@ -55,7 +56,7 @@ struct Cover {
 
   std::size_t bytes() const {
     return particles.bytes() + cells.bytes() + spindrift::bytes(foot) + spindrift::bytes(hazard) +
-           spindrift::bytes(first, members) + spindrift::bytes(surface_normal);
+           spindrift::bytes(first, members) + spindrift::bytes(laid) + spindrift::bytes(surface_normal);
   }
 };
 

@@ -67,16 +67,18 @@ DenseFlow<Dim>::DenseFlow(const DenseFlowOptions& options)
       artificial_viscosity_(options.spacing) {}
 
 template <int Dim>
-void DenseFlow<Dim>::sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages,
-                                              double ground_reach) {
+void DenseFlow<Dim>::sort(const Walls<Dim>& walls, Stages& stages, double ground_reach) {
   {
     auto timed = stages.time("dense_flow.sort");
     cells_.build(particles);
   }
-  if (walls.terrain) {
-    auto timed = stages.time("dense_flow.ground");
-    walls.terrain->find_feet(feet_, particles.position, ground_reach);
-  }
+  if (!walls.terrain) return;
+  auto timed = stages.time("dense_flow.ground");
+  walls.terrain->find_feet(feet_, particles.position, ground_reach);
+}
+
+template <int Dim>
+void DenseFlow<Dim>::find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages) {
   auto timed = stages.time("dense_flow.neighbours");
   neighbours_.find(particles, cells_, walls, wall_kernel_, feet_, cover, options_.no_slip && options_.viscosity > 0,
                    options_.neighbour_search);

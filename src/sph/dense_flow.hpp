@@ -74,22 +74,22 @@ class DenseFlow {
 
   Particles<Dim> particles;
 
-  /// The step, in this order; between the first two the caller may change velocities and masses. Any number of
+  /// The step, in this order; before the third the caller may change velocities and masses. Any number of
   /// particles is legal, none too.
-  /// 1: sorts the particles, finds the ground below each and all neighbours. ground_reach: how far the ground is looked
-  /// for [m], at least the support radius, beyond which no wall acts. Throws Error(unstable): a position that is not
-  /// finite.
-  void sort_and_find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages,
-                                double ground_reach = std::numeric_limits<double>::infinity());
-  /// 2: viscosity and pressure. Gravity is in the velocities already. dfsph is kept quiet by ArtificialViscosity with
+  /// 1: sorts the particles and finds the ground below each. ground_reach: how far the ground is looked for [m], at
+  /// least the support radius, beyond which no wall acts. Throws Error(unstable): a position that is not finite.
+  void sort(const Walls<Dim>& walls, Stages& stages, double ground_reach = std::numeric_limits<double>::infinity());
+  /// 2: finds all neighbours.
+  void find_neighbours(const Walls<Dim>& walls, const CoverView<Dim>& cover, Stages& stages);
+  /// 3: viscosity and pressure. Gravity is in the velocities already. dfsph is kept quiet by ArtificialViscosity with
   /// the wave speed sqrt(p / rho) of the last step's pressure, rho the rest density of the options: none in free fall,
   /// and less the finer the particles. wcsph with its sound speed.
   /// Throws Error(unstable): a velocity not finite.
   VelocitySolve<Dim> solve_velocity(double dt, Stages& stages);
-  /// 3: x += dt v. What ended in a wall is put back on its surface, its velocity into the wall removed.
+  /// 4: x += dt v. What ended in a wall is put back on its surface, its velocity into the wall removed.
   /// Returns the impulse that the walls gave [kg m s^-1].
   Vec<Dim> move(double dt, const Walls<Dim>& walls, Stages& stages);
-  /// 4: removes what left through an open side (R23).
+  /// 5: removes what left through an open side (R23).
   Removed<Dim> remove_outside(const Walls<Dim>& walls);
 
   /// Volume relaxes to mass / density: V += (m / rho - V) (1 - exp(-dt / time)). time 0: off (R20).

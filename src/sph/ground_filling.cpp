@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "sph/tile.hpp"
 
 namespace spindrift {
 namespace {
@@ -57,33 +56,42 @@ std::vector<FilledPlace> fill_stack(const HeightField& ground, const GroundLayer
 
 }  // namespace
 
+Plots::Plots(const GroundLayer& layer)
+    : edge(tile_period<3> * layer.spacing),
+      aside(layer.base + filled_thickness(layer)) {  // a place may lie as far aside of its foot as over it
+  if (!(layer.thickness > 0) || !(layer.extent.size().minCoeff() > 0)) return;
+  for (int k = 0; k < 2; ++k) {
+    first[k] = static_cast<int>(std::floor((layer.extent.lower[k] - aside) / edge));
+    shape[k] = static_cast<int>(std::floor((layer.extent.upper[k] + aside) / edge)) - first[k] + 1;
+  }
+}
+
+GroundFilling::GroundFilling(const GroundLayer& layer) : layer_(layer), plots_(layer) {
+  if (plots_.size() == 0) return;
+  tile_ = relaxed_tile<3>(TileKind::volume, Vec<3>::Constant(plots_.edge), layer.spacing, layer.seed,
+                          layer.relaxation_steps);
+  if (filled_thickness(layer) > layer.thickness)
+    sort_in_strips(tile_.places, std::sqrt(std::pow(layer.spacing, 3) / layer.thickness));
+}
+
+std::vector<FilledPlace> GroundFilling::fill(const HeightField& ground, std::size_t plot,
+                                             const std::function<bool(const Vec<2>&)>& accepts) const {
+  const Index<2> i = unflat<2>(plot, plots_.shape);
+  const Vec<3>& size = tile_.size;
+  Vec<3> corner = Vec<3>::Zero();
+  for (int k = 0; k < 2; ++k) corner += (plots_.first[k] + i[k]) * tile_step<3>(TileKind::volume, size, k);
+  const double steps = tile_step<3>(TileKind::volume, size, 0)[2] / size[2] * (plots_.first[0] + i[0]) +
+                       tile_step<3>(TileKind::volume, size, 1)[2] / size[2] * (plots_.first[1] + i[1]);
+  return fill_stack(ground, layer_, tile_, corner, steps - std::floor(steps), accepts);
+}
+
 std::vector<FilledPlace> fill_ground(const HeightField& ground, const GroundLayer& layer,
                                      const std::function<bool(const Vec<2>&)>& accepts) {
-  std::vector<FilledPlace> filled;
-  if (!(layer.thickness > 0) || !(layer.extent.size().minCoeff() > 0)) return filled;
-  const Vec<3> size = Vec<3>::Constant(tile_period<3> * layer.spacing);
-  Tile<3> tile = relaxed_tile<3>(TileKind::volume, size, layer.spacing, layer.seed, layer.relaxation_steps);
-  if (filled_thickness(layer) > layer.thickness)
-    sort_in_strips(tile.places, std::sqrt(std::pow(layer.spacing, 3) / layer.thickness));
-  // A place may lie as far aside of its foot as over it.
-  const double aside = layer.base + filled_thickness(layer);
-  Index<2> first, stacks;
-  for (int k = 0; k < 2; ++k) {
-    first[k] = static_cast<int>(std::floor((layer.extent.lower[k] - aside) / size[k]));
-    stacks[k] = static_cast<int>(std::floor((layer.extent.upper[k] + aside) / size[k])) - first[k] + 1;
-  }
-  std::vector<std::vector<FilledPlace>> parts(count<2>(stacks));
+  const GroundFilling filling(layer);
+  std::vector<std::vector<FilledPlace>> parts(filling.plots().size());
   parallel_for(
-      parts.size(),
-      [&](std::size_t n) {
-        const Index<2> i = unflat<2>(n, stacks);
-        Vec<3> corner = Vec<3>::Zero();
-        for (int k = 0; k < 2; ++k) corner += (first[k] + i[k]) * tile_step<3>(TileKind::volume, size, k);
-        const double steps = tile_step<3>(TileKind::volume, size, 0)[2] / size[2] * (first[0] + i[0]) +
-                             tile_step<3>(TileKind::volume, size, 1)[2] / size[2] * (first[1] + i[1]);
-        parts[n] = fill_stack(ground, layer, tile, corner, steps - std::floor(steps), accepts);
-      },
-      1);
+      parts.size(), [&](std::size_t plot) { parts[plot] = filling.fill(ground, plot, accepts); }, 1);
+  std::vector<FilledPlace> filled;
   for (const auto& part : parts) filled.insert(filled.end(), part.begin(), part.end());
   return filled;
 }

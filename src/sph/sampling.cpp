@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "sph/kd_tree.hpp"
+#include "sph/sleeping_cover.hpp"
 #include "sph/tile.hpp"
 
 namespace spindrift {
@@ -35,18 +36,6 @@ bool may_rest(const Terrain<Dim>& terrain, const Vec<Dim>& place, double d) {
   return std::abs(cos_slope<Dim>(foot.normal)) < least_cos_slope && foot.distance >= d / 2;
 }
 
-template <int Dim>
-void append(Particles<Dim>& particles, const Vec<Dim>& x, const SnowKind<Dim>& kind) {
-  const double volume = std::pow(kind.spacing, Dim);
-  particles.id.push_back(kind.first_id + particles.size());
-  particles.position.push_back(x);
-  particles.velocity.push_back(kind.velocity);
-  particles.mass.push_back(kind.density * volume);
-  particles.volume.push_back(volume);
-  particles.pressure.push_back(0);
-  particles.entrained_at.push_back(-1);
-}
-
 void check(bool good, const char* what) {
   if (!good) throw Error(ExitCode::bad_input, std::string("sampling: ") + what);
 }
@@ -55,13 +44,6 @@ template <int Dim>
 void check_kind(const SnowKind<Dim>& kind) {
   check(std::isfinite(kind.spacing) && kind.spacing > 0, "the particle spacing must be positive");
   check(std::isfinite(kind.density) && kind.density > 0, "the density must be positive");
-}
-
-/// Whether an obstacle lies within d/2 of x.
-template <int Dim>
-bool blocked(std::span<const Box<Dim>> obstacles, const Vec<Dim>& x, double d) {
-  return std::any_of(obstacles.begin(), obstacles.end(),
-                     [&](const Box<Dim>& obstacle) { return surface_of<Dim>(obstacle, x).distance < 0.5 * d; });
 }
 
 template <int Dim>
@@ -96,7 +78,7 @@ void lay_on_profile(Cover<Dim>& cover, const Terrain<Dim>& terrain, const CoverL
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (kept[i] == 0) continue;
     const Vec<Dim> x = terrain.position(places[i].template head<Dim - 1>(), places[i][Dim - 1]);
-    if (blocked<Dim>(obstacles, x, d)) continue;
+    if (any_within<Dim>(obstacles, x, d / 2)) continue;
     places[n++] = places[i];
     positions.push_back(x);
   }
@@ -108,7 +90,7 @@ void lay_on_profile(Cover<Dim>& cover, const Terrain<Dim>& terrain, const CoverL
 
   for (std::size_t i = 0; i < n; ++i) {
     if (kept[i] == 0) continue;
-    append(cover.particles, positions[i], kind);
+    append(cover.particles, positions[i], kind, kind.first_id + cover.particles.size());
     Foot<Dim> foot = terrain.foot(positions[i]);
     foot.distance = places[i][Dim - 1];
     foot.place = places[i].template head<Dim - 1>();
@@ -116,31 +98,22 @@ void lay_on_profile(Cover<Dim>& cover, const Terrain<Dim>& terrain, const CoverL
   }
 }
 
-template <int Dim>
-void lay_on_field(Cover<Dim>& cover, const HeightField& field, const CoverLayer& layer, const SnowKind<Dim>& kind,
-                  std::span<const Box<Dim>> obstacles) {
-  if constexpr (Dim == 3) {
-    cover.in_plan = true;
-    const Vec<2> lower(layer.from, layer.y.from), upper(layer.to, layer.y.to);
-    const GroundLayer all{.extent = {lower.cwiseMax(layer.within.lower), upper.cwiseMin(layer.within.upper)},
-                          .thickness = layer.depth,
-                          .spacing = kind.spacing,
-                          .seed = layer.seed,
-                          .relaxation_steps = layer.relaxation_steps};
-    const auto everywhere = [](const Vec<2>&) { return true; };
-    for (const FilledPlace& place : fill_ground(field, all, layer.accepts ? layer.accepts : everywhere)) {
-      if (blocked<Dim>(obstacles, place.position, kind.spacing)) continue;
-      append(cover.particles, place.position, kind);
-      cover.foot.push_back(place.foot);
-    }
-  }
-}
-
 }  // namespace
 
 template <int Dim>
-Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, const SnowKind<Dim>& kind,
-                        std::span<const Box<Dim>> obstacles) {
+void append(Particles<Dim>& particles, const Vec<Dim>& x, const SnowKind<Dim>& kind, std::uint64_t id) {
+  const double volume = std::pow(kind.spacing, Dim);
+  particles.id.push_back(id);
+  particles.position.push_back(x);
+  particles.velocity.push_back(kind.velocity);
+  particles.mass.push_back(kind.density * volume);
+  particles.volume.push_back(volume);
+  particles.pressure.push_back(0);
+  particles.entrained_at.push_back(-1);
+}
+
+template <int Dim>
+Cover<Dim> bare_cover(const CoverLayer& layer, const SnowKind<Dim>& kind) {
   check_kind(kind);
   check(std::isfinite(layer.from) && std::isfinite(layer.to) && std::isfinite(layer.depth) &&
             std::isfinite(layer.y.from) && std::isfinite(layer.y.to),
@@ -155,17 +128,23 @@ Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, co
   cover.ground_lower[0] = layer.ground_from + d;
   cover.ground_upper[0] = layer.ground_to - d;
   if constexpr (Dim == 3) cover.ground_lower[1] = layer.y.from + d, cover.ground_upper[1] = layer.y.to - d;
-  const bool empty = !(layer.depth > 0) || !(layer.to > layer.from) || (Dim == 3 && !(layer.y.to > layer.y.from));
-  if (empty) {
-    index_cover(cover);
-    return cover;
-  }
+  index_cover(cover);
+  return cover;
+}
 
-  if (const HeightField* field = terrain.height_field()) {
-    lay_on_field(cover, *field, layer, kind, obstacles);
-  } else {
-    lay_on_profile(cover, terrain, layer, kind, obstacles);
+template <int Dim>
+Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, const SnowKind<Dim>& kind,
+                        std::span<const Box<Dim>> obstacles) {
+  Cover<Dim> cover = bare_cover(layer, kind);
+  if constexpr (Dim == 3) {
+    if (const HeightField* field = terrain.height_field()) {
+      SleepingCover(layer, kind, obstacles).wake_all(cover, *field);
+      return cover;
+    }
   }
+  const bool empty = !(layer.depth > 0) || !(layer.to > layer.from) || (Dim == 3 && !(layer.y.to > layer.y.from));
+  if (empty) return cover;
+  lay_on_profile(cover, terrain, layer, kind, obstacles);
   cover.hazard.assign(cover.particles.size(), 0);
   index_cover(cover);
   return cover;
@@ -188,7 +167,8 @@ Particles<3> sample_area(const HeightField& ground, const GroundLayer& layer, co
                          const std::function<bool(const Vec<2>&)>& accepts) {
   check_kind(kind);
   Particles<3> snow;
-  for (const FilledPlace& place : fill_ground(ground, layer, accepts)) append(snow, place.position, kind);
+  for (const FilledPlace& place : fill_ground(ground, layer, accepts))
+    append(snow, place.position, kind, kind.first_id + snow.size());
   return snow;
 }
 
@@ -206,7 +186,7 @@ Particles<Dim> sample_box(const Box<Dim>& box, const SnowKind<Dim>& kind) {
   for_each_index<Dim>(shape, [&](const Index<Dim>& i) {
     Vec<Dim> x = box.lower;
     for (int axis = 0; axis < Dim; ++axis) x[axis] += (i[axis] + 0.5) * kind.spacing;
-    append(particles, x, kind);
+    append(particles, x, kind, kind.first_id + particles.size());
   });
   return particles;
 }
@@ -231,6 +211,8 @@ NearestNeighbours nearest_neighbours(std::span<const Vec<Dim>> positions) {
 }
 
 #define INSTANTIATE(Dim)                                                                              \
+  template void append<Dim>(Particles<Dim>&, const Vec<Dim>&, const SnowKind<Dim>&, std::uint64_t);   \
+  template Cover<Dim> bare_cover<Dim>(const CoverLayer&, const SnowKind<Dim>&);                       \
   template Cover<Dim> sample_cover<Dim>(const Terrain<Dim>&, const CoverLayer&, const SnowKind<Dim>&, \
                                         std::span<const Box<Dim>>);                                   \
   template Particles<Dim> sample_slab<Dim>(const Terrain<Dim>&, const Slab&, const SnowKind<Dim>&);   \

@@ -45,6 +45,14 @@ struct CoverLayer {
                 Vec<2>::Constant(std::numeric_limits<double>::infinity())};
 };
 
+/// Adds a particle of a kind at x.
+template <int Dim>
+void append(Particles<Dim>& particles, const Vec<Dim>& x, const SnowKind<Dim>& kind, std::uint64_t id);
+
+/// Of a layer, without a particle yet.
+template <int Dim>
+Cover<Dim> bare_cover(const CoverLayer& layer, const SnowKind<Dim>& kind);
+
 /// The cover: pseudo-random places of number density 1/d^Dim in (arc length, y, normal distance), relaxed by mutual
 /// repulsion until the mean distance of nearest neighbours is d, and laid on the ground piece by piece from one such
 /// tile, so that a stretch of ground gets the same places whatever the cover's extent.
@@ -52,11 +60,12 @@ struct CoverLayer {
 ///   - Where the ground is concave, a place belongs to the piece of ground that is nearest; of two particles closer
 ///     than 0.7 d the later is left out (R22). Ground over 84 degrees (a cliff's face) carries no cover.
 ///   - Nothing lies within d/2 of `obstacles`.
-/// On a height field, where from, to and y are those of places (x, y), the layer is filled from a volume tile instead
-/// (ground_filling.hpp); its mass per area of ground is density times depth, to 1 % on the whole.
-/// Returns at-rest particles, entrained_at = -1, ids from kind.first_id up. Empty for depth 0 or to <= from.
-/// Throws Error(bad_input): spacing not positive, a number that is not finite.
-/// Source: paper Sec. 4.5.  Departure: R22.
+/// On a height field, where from, to and y are those of places (x, y), the layer is filled from a volume tile instead,
+/// as SleepingCover does that is woken as a whole; its mass per area of ground is density times depth, to 1 % on the
+/// whole.
+/// Returns at-rest particles, entrained_at = -1, ids from kind.first_id up, on a height field those of SleepingCover.
+/// Empty for depth 0 or to <= from. Throws Error(bad_input): spacing not positive, a number that is not finite. Source:
+/// paper Sec. 4.5.  Departure: R22.
 template <int Dim>
 Cover<Dim> sample_cover(const Terrain<Dim>& terrain, const CoverLayer& layer, const SnowKind<Dim>& kind,
                         std::span<const Box<Dim>> obstacles = {});

@@ -1,6 +1,9 @@
 #pragma once
 /// Solid boxes as particles and the grid meet them: signed distance and normal.
 
+#include <algorithm>
+#include <span>
+
 #include "core/vec.hpp"
 
 namespace spindrift {
@@ -22,6 +25,13 @@ BoxSurface<Dim> surface_of(const Box<Dim>& box, const Vec<Dim>& x) {
   const Vec<Dim> away = beyond.cwiseMax(0).cwiseProduct(from_middle.unaryExpr(sign));
   const double distance = away.norm();
   return {distance, away / distance};
+}
+
+/// Whether one of the boxes lies within `reach` [m] of x.
+template <int Dim>
+bool any_within(std::span<const Box<Dim>> boxes, const Vec<Dim>& x, double reach) {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const Box<Dim>& box) { return surface_of<Dim>(box, x).distance < reach; });
 }
 
 }  // namespace spindrift

@@ -40,7 +40,8 @@ struct Probe {
     cells.build(cover);
     const std::vector<Vec<Dim>> normals(cover.size(), up<Dim>());
     const CoverView<Dim> view{&cover, &cells, &normals};
-    dense.sort_and_find_neighbours(walls, view, stages);
+    dense.sort(walls, stages);
+    dense.find_neighbours(walls, view, stages);
     const auto& id = dense.particles.id;
     const auto first = static_cast<std::size_t>(std::find(id.begin(), id.end(), 0u) - id.begin());
     std::vector<std::uint8_t> above, below;

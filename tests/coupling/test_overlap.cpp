@@ -45,7 +45,8 @@ std::vector<int> overlap_rows(const Vec<Dim>& shift, int rows, bool with_floor, 
   DenseFlow<Dim> dense = block<Dim>(shift, rows);
   const Walls<Dim> walls = floor_at<Dim>(with_floor ? shift[Dim - 1] : -40);
   Stages stages;
-  dense.sort_and_find_neighbours(walls, {}, stages);
+  dense.sort(walls, stages);
+  dense.find_neighbours(walls, {}, stages);
   std::vector<std::uint8_t> overlap;
   classify_overlap<Dim>(overlap, dense, {}, walls, fraction, interior_number_density<Dim>(d, 2 * d));
   std::vector<int> found;
@@ -82,11 +83,13 @@ TEMPLATE_TEST_CASE_SIG("C10: snow that flies alone is overlap, no snow has none"
   const Walls<Dim> walls = floor_at<Dim>(-40);
   Stages stages;
   std::vector<std::uint8_t> overlap(3, 1);
-  dense.sort_and_find_neighbours(walls, {}, stages);
+  dense.sort(walls, stages);
+  dense.find_neighbours(walls, {}, stages);
   classify_overlap<Dim>(overlap, dense, {}, walls, 0.8, interior_number_density<Dim>(d, 2 * d));
   CHECK(overlap.empty());
   add_particle<Dim>(dense.particles, Vec<Dim>::Zero(), Vec<Dim>::Zero(), 1.0, std::pow(d, Dim));
-  dense.sort_and_find_neighbours(walls, {}, stages);
+  dense.sort(walls, stages);
+  dense.find_neighbours(walls, {}, stages);
   classify_overlap<Dim>(overlap, dense, {}, walls, 0.8, interior_number_density<Dim>(d, 2 * d));
   CHECK(overlap == std::vector<std::uint8_t>{1});
 }

@@ -67,7 +67,8 @@ DenseFlowOptions options_for(double d) {
 template <int Dim>
 Vec<Dim> step(DenseFlow<Dim>& flow, double dt, const Walls<Dim>& walls, const Vec<Dim>& gravity, Stages& stages,
               const CoverView<Dim>& cover = {}) {
-  flow.sort_and_find_neighbours(walls, cover, stages);
+  flow.sort(walls, stages);
+  flow.find_neighbours(walls, cover, stages);
   for (auto& v : flow.particles.velocity) v += dt * gravity;
   const Vec<Dim> solve = flow.solve_velocity(dt, stages).boundary_impulse;
   return solve + flow.move(dt, walls, stages);

@@ -24,7 +24,8 @@ struct Pair {
     add_particle<Dim>(p, Vec<Dim>::Zero(), v0, std::pow(d, Dim), 300);
     add_particle<Dim>(p, d * pair_axis<Dim>, v1, 2 * std::pow(d, Dim), 150);
     Stages stages;
-    flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
+    flow.sort(no_walls<Dim>(), stages);
+    flow.find_neighbours(no_walls<Dim>(), {}, stages);
     if (p.id[0] == 1) std::swap(wave_speed[0], wave_speed[1]);
     ArtificialViscosity<Dim>(d).apply(p, flow.neighbours(), wave_speed, dt);
   }

@@ -141,7 +141,8 @@ TEMPLATE_TEST_CASE_SIG("A pitted surface does not push along the slope", "[cover
   Walls<Dim> walls;
   walls.domain = {Vec<Dim>(Vec<Dim>::Constant(-50)), Vec<Dim>(Vec<Dim>::Constant(50))};
   Stages stages;
-  flow.sort_and_find_neighbours(walls, view(cover), stages);
+  flow.sort(walls, stages);
+  flow.find_neighbours(walls, view(cover), stages);
   const CubicSpline<Dim> kernel(2 * d);
   const Vec<Dim> normal = terrain.foot(flow.particles.position[0]).normal;
   double raw = 0, smooth = 0, across = 0;

@@ -42,7 +42,8 @@ TEMPLATE_TEST_CASE_SIG("a velocity that is not a number is reported", "[dense_fl
   add_block<Dim>(flow.particles, n, 0.1, 300, Vec<Dim>::Zero());
   flow.particles.id[9] = 990099;
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
+  flow.sort(no_walls<Dim>(), stages);
+  flow.find_neighbours(no_walls<Dim>(), {}, stages);
   const std::size_t bad = static_cast<std::size_t>(
       std::find(flow.particles.id.begin(), flow.particles.id.end(), 990099u) - flow.particles.id.begin());
   flow.particles.velocity[bad][0] =

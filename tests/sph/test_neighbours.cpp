@@ -42,7 +42,8 @@ TEMPLATE_TEST_CASE_SIG("rows match a k-d tree", "[neighbours]", ((int Dim), Dim)
   const double d = 0.05, h = 2 * d;
   DenseFlow<Dim> flow = shaken_block<Dim>(d);
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
+  flow.sort(no_walls<Dim>(), stages);
+  flow.find_neighbours(no_walls<Dim>(), {}, stages);
   const Cloud<Dim> cloud{flow.particles.position};
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud<Dim>>, Cloud<Dim>, Dim> tree(
       Dim, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(8));
@@ -70,7 +71,8 @@ TEMPLATE_TEST_CASE_SIG("pair gradients are right and antisymmetric to the last b
   DenseFlow<Dim> flow = shaken_block<Dim>(d);
   for (auto& x : flow.particles.position) x += Vec<Dim>::Constant(1234.5);
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
+  flow.sort(no_walls<Dim>(), stages);
+  flow.find_neighbours(no_walls<Dim>(), {}, stages);
   const CubicSpline<Dim> kernel(2 * d);
   std::map<std::pair<std::size_t, std::size_t>, std::array<float, Dim>> gradients;
   for (std::size_t i = 0; i < flow.particles.size(); ++i) {
@@ -110,7 +112,8 @@ TEMPLATE_TEST_CASE_SIG("sums over neighbours, cover and walls match brute force"
   Stages stages;
   std::vector<Vec<Dim>> normals;
   for (const Vec<Dim>& x : cover.position) normals.push_back((Vec<Dim>::Unit(Dim - 1) + 0.5 * x).normalized());
-  flow.sort_and_find_neighbours(walls, {&cover, &cover_cells, &normals}, stages);
+  flow.sort(walls, stages);
+  flow.find_neighbours(walls, {&cover, &cover_cells, &normals}, stages);
   const Kernel<Dim, Shape> kernel(h);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const WallShare<Dim> wall = flow.wall_kernel().share(walls, p.position[i], flow.foot(i));

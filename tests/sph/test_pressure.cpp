@@ -14,7 +14,8 @@ TEMPLATE_TEST_CASE_SIG("the pressure force of two particles", "[pressure]", ((in
   add_particle<Dim>(p, Vec<Dim>::Zero(), Vec<Dim>::Zero(), 0.002, 300);
   add_particle<Dim>(p, r * Vec<Dim>::Unit(0), Vec<Dim>::Zero(), 0.003, 150);
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
+  flow.sort(no_walls<Dim>(), stages);
+  flow.find_neighbours(no_walls<Dim>(), {}, stages);
   // d/dr of 2 sigma [(1 - q)^3 - 4 (1/2 - q)^3] at q = 0.35, by hand: -6 sigma (0.4225 - 0.09) / h
   const double slope = -6 * CubicSpline<Dim>(h).sigma * (0.65 * 0.65 - 4 * 0.15 * 0.15) / h;
   const double force = -0.002 * 0.003 * (p0 + p1) * slope;  // on the second, away from the first
@@ -34,7 +35,8 @@ TEMPLATE_TEST_CASE_SIG("a wall pushes along its normal and its impulse is booked
   add_particle<Dim>(p, x, Vec<Dim>::Zero(), 0.01, 300);
   const Walls<Dim> walls = box<Dim>(Vec<Dim>::Constant(10));
   Stages stages;
-  flow.sort_and_find_neighbours(walls, {}, stages);
+  flow.sort(walls, stages);
+  flow.find_neighbours(walls, {}, stages);
   const double p0 = 50;
   const Vec<Dim> impulse = apply_pressure(p.velocity, p, flow.neighbours(), std::vector<double>{p0}, dt);
   const double expected = -2 * dt * 0.01 * p0 * flow.wall_kernel().share(walls, x, flow.foot(0)).gradient[Dim - 1];
@@ -62,7 +64,8 @@ TEMPLATE_TEST_CASE_SIG("after the solve nothing full is compressed", "[pressure]
   walls.domain.upper[Dim - 1] = 2 * size;
   const Vec<Dim> before = momentum(p);
   Stages stages;
-  flow.sort_and_find_neighbours(walls, {}, stages);
+  flow.sort(walls, stages);
+  flow.find_neighbours(walls, {}, stages);
   const Vec<Dim> start = momentum(p);
   const VelocitySolve<Dim> done = flow.solve_velocity(dt, stages);
   CHECK(done.density.iterations > 1);
@@ -100,7 +103,8 @@ TEMPLATE_TEST_CASE_SIG("separating and sparse snow feels no pressure", "[pressur
   const Vec<Dim> centre = Vec<Dim>::Constant(3 * d);
   for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = (sparse ? -1.0 : 1.0) * (p.position[i] - centre);
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
+  flow.sort(no_walls<Dim>(), stages);
+  flow.find_neighbours(no_walls<Dim>(), {}, stages);
   const auto before = p.velocity;
   flow.solve_velocity(0.004, stages);
   for (std::size_t i = 0; i < p.size(); ++i) CHECK((p.velocity[i] - before[i]).norm() < 1e-4);

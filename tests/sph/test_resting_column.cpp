@@ -36,7 +36,8 @@ Rest column(int rows, double end_time, DenseFlowOptions options) {
     impulse += push;
     window += dt;
   }
-  flow.sort_and_find_neighbours(walls, {}, stages);
+  flow.sort(walls, stages);
+  flow.find_neighbours(walls, {}, stages);
   const double n = static_cast<double>(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
     rest.density_error += std::max(0.0, flow.neighbours().volume_sum()[i] - 1) / n;

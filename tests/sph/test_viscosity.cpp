@@ -18,7 +18,8 @@ TEMPLATE_TEST_CASE_SIG("viscosity keeps momentum, damps, and stops at rigid moti
   shake(p, 0.2 * d, 2);
   for (std::size_t i = 0; i < p.size(); ++i) p.mass[i] *= i % 3 == 0 ? 0.1 : 1;
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
+  flow.sort(no_walls<Dim>(), stages);
+  flow.find_neighbours(no_walls<Dim>(), {}, stages);
   const auto energy = [&] {
     double sum = 0;
     for (std::size_t i = 0; i < p.size(); ++i) sum += p.mass[i] * p.velocity[i].squaredNorm();
@@ -47,7 +48,8 @@ TEMPLATE_TEST_CASE_SIG("a shear wave decays at the viscous rate", "[viscosity]",
   add_block<Dim>(p, n, d, rho, Vec<Dim>::Zero());
   const double k = 2 * std::numbers::pi / (20 * d);
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<Dim>(), {}, stages);
+  flow.sort(no_walls<Dim>(), stages);
+  flow.find_neighbours(no_walls<Dim>(), {}, stages);
   for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = std::sin(k * p.position[i][Dim - 1]) * Vec<Dim>::Unit(0);
   const auto before = p.velocity;
   ViscositySolver<Dim> solver(d);
@@ -115,7 +117,8 @@ TEST_CASE("cover holds viscous snow where it does not slip", "[viscosity]") {
   add_block<2>(flow.particles, {10, 3}, d, 300, {5 * d, 0});
   for (auto& v : flow.particles.velocity) v = {1, 0};
   Stages stages;
-  flow.sort_and_find_neighbours(no_walls<2>(), {&cover, &cells, &normals}, stages);
+  flow.sort(no_walls<2>(), stages);
+  flow.find_neighbours(no_walls<2>(), {&cover, &cells, &normals}, stages);
   const double before = momentum(flow.particles)[0];
   const auto done = flow.solve_velocity(0.01, stages);
   CHECK(momentum(flow.particles)[0] - before == Approx(done.boundary_impulse[0]).margin(1e-9));

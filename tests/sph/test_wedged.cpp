@@ -28,7 +28,8 @@ struct Wedged {
     cells.build(cover);
     const std::vector<Vec<Dim>> normals(1, up<Dim>());
     Stages stages;
-    flow.sort_and_find_neighbours(no_walls<Dim>(), {&cover, &cells, &normals}, stages);
+    flow.sort(no_walls<Dim>(), stages);
+    flow.find_neighbours(no_walls<Dim>(), {&cover, &cells, &normals}, stages);
     i = flow.particles.id[0] == 0 ? 0 : 1;
     flow.solve_velocity(0.005, stages);
     speed = flow.particles.velocity[i].norm();
