@@ -22,6 +22,24 @@ function(spindrift_library name)
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
+# spindrift_module(name): src/name/*.cpp with packages::name, where that is installed, as a library that io loads when it
+# is first needed: src/io/module.hpp. All modules stand beside the program, at the top of the build folder.
+set(CMAKE_BUILD_RPATH "$ORIGIN" "$ORIGIN/..")  # the second for the tests
+function(spindrift_module name)
+  if(NOT TARGET packages::${name})
+    return()
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  add_library(module_${name} MODULE ${sources})
+  target_link_libraries(module_${name} PRIVATE spindrift_options packages::fmt packages::${name})
+  target_link_options(module_${name} PRIVATE LINKER:--no-undefined)
+  set_target_properties(module_${name} PROPERTIES PREFIX "" OUTPUT_NAME spindrift_${name}
+                        LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  string(TOUPPER ${name} package)
+  target_compile_definitions(io PRIVATE SPINDRIFT_${package})
+  add_dependencies(io module_${name})
+endfunction()
+
 # spindrift_tests(name LINK libraries...): tests/name/*.cpp as the executable test_name.
 # Cases tagged [slow] run in a test of their own, so that `ctest -LE slow` stays fast.
 function(spindrift_tests name)

@@ -12,7 +12,7 @@ namespace spindrift {
 bool writes_geotiff();
 
 /// The grid as the bytes of a GeoTIFF: one band in single precision, deflated, holes -9999, no system of coordinates.
-/// Throws Error(bad_input): a build without GDAL;  Error(io_failed): GDAL refused.
+/// Throws Error(bad_input): a build without GDAL, or its module does not load;  Error(io_failed): GDAL refused.
 std::vector<std::byte> geotiff_bytes(const ElevationGrid& grid);
 
 }  // namespace spindrift

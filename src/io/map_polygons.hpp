@@ -36,7 +36,8 @@ bool reads_map_files();
 /// The polygons of the first layer of a shapefile, a GeoJSON file or another that GDAL reads, in the file's order;
 /// multipolygons are taken apart.
 /// Throws MapFileError: no such file, none that GDAL can read, a layer without polygons, geometry that is no polygon, a
-/// coordinate or thickness that is not finite, coordinates in degrees, or a build without GDAL.
+/// coordinate or thickness that is not finite, coordinates in degrees, or a build without GDAL;  Error(bad_input):
+/// GDAL's module does not load.
 std::vector<MapPolygon> read_map_polygons(const std::filesystem::path& file);
 
 }  // namespace spindrift

@@ -16,7 +16,7 @@ bool writes_vdb();
 /// one layer of voxels, at y = 0.
 /// name     of the frame's file, for messages
 /// Throws Error(incompatible_file): the frame lacks a lattice or one of the arrays;  Error(bad_input): a build without
-/// OpenVDB.
+/// OpenVDB, or its module does not load.
 std::vector<std::byte> vdb_bytes(const StoredFrame& frame, double least, const std::string& name);
 
 }  // namespace spindrift

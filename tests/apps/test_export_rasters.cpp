@@ -1,5 +1,6 @@
 // The maps of a run under AvaFrame's names, and its smoke as OpenVDB, read back by the programs of others.
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <regex>
 
@@ -103,6 +104,29 @@ TEST_CASE("GDAL reads the GeoTIFF at its place with its numbers", "[export]") {
   const std::string ours = text_of(run.folder() / "r/peaks/flow_thickness.asc");
   const double value = std::stod(run.shell("gdallocationinfo -valonly -geoloc maps/*_pft.tif 500003 200003").out);
   CHECK(ours.find(std::to_string(value).substr(0, 5)) != std::string::npos);
+}
+
+TEST_CASE("The program works without its modules until one is asked for, and then names it", "[export]") {
+  const CloudRun run;
+  const auto by_copy = [&](const std::string& words) { return run.shell("./spindrift " + words); };
+  fs::copy_file(SPINDRIFT_BINARY_DIR "/spindrift", run.folder() / "spindrift");
+  CHECK(by_copy("export r --to raster -o maps").code == 0);
+  for (const auto& [words, file, built_without] :
+       {std::array{"--to vdb --frame 0 -o volumes", "spindrift_openvdb.so", "this build writes no OpenVDB"},
+        std::array{"--to raster --format tif -o tifs", "spindrift_gdal.so", "this build writes no GeoTIFF"}}) {
+    const std::string line = std::string("export r ") + words;
+    const Outcome missing = by_copy(line);
+    CAPTURE(missing.err);
+    CHECK(missing.code == 2);
+    if (missing.err.find(built_without) != std::string::npos) continue;
+    CHECK(missing.err.find(std::string(" needs ") + file + ", which does not load: " + file + ": cannot open") !=
+          std::string::npos);
+    run.write(file, "not a library");
+    CHECK(by_copy(line).code == 2);
+    fs::remove(run.folder() / file);
+    fs::copy_file(fs::path(SPINDRIFT_BINARY_DIR) / file, run.folder() / file);
+    CHECK(by_copy(line).code == 0);
+  }
 }
 
 TEST_CASE("OpenVDB reads smoke and its velocity back", "[export]") {

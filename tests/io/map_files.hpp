@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "gdal/session.hpp"
 #include "io/esri_grid.hpp"
-#include "io/gdal_session.hpp"
 
 namespace spindrift {
 

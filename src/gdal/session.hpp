@@ -1,6 +1,5 @@
 #pragma once
-/// GDAL with its drivers known, for as long as a file is read or written with it. To be included where SPINDRIFT_GDAL
-/// is defined.
+/// GDAL with its drivers known, for as long as a file is read or written with it.
 
 #include <cpl_error.h>
 #include <gdal.h>

@@ -1,0 +1,8 @@
+#include "gdal/functions.hpp"
+
+namespace spindrift {
+
+extern "C" const GdalModule spindrift_module{gdal::read_raster, gdal::read_polygons, gdal::same_coordinates,
+                                             gdal::geotiff_bytes};
+
+}  // namespace spindrift
