@@ -49,7 +49,8 @@ ExitCode check(const SceneArguments& arguments) {
   if (scene.elevation) row("terrain", "{}", model_text(*scene.elevation));
   if (plan.release_area > 0) row("release", "{:.0f} m^2 of ground, {:.0f} m^3", plan.release_area, plan.release_volume);
   if (plan.cover_area > 0) row("cover", "{:.0f} m^2 of ground, {:g} m deep", plan.cover_area, scene.cover->depth);
-  row("particles", "about {} released, {} in the cover", count_text(plan.n_release), count_text(plan.n_cover));
+  const std::string laid = plan.n_laid < plan.n_cover ? fmt::format(", {} of them laid", count_text(plan.n_laid)) : "";
+  row("particles", "about {} released, {} in the cover{}", count_text(plan.n_release), count_text(plan.n_cover), laid);
   if (scene.suspension && scene.suspension->tiles)
     row("cells", "about {}, on tiles (the limit is {})", count_text(plan.n_cells), grid);
   else

@@ -63,9 +63,19 @@ std::vector<float> cosines(const Relief& ground) {
   return all;
 }
 
+/// 1 for plots of which the frame holds a particle, resting or entrained.
+std::vector<std::uint8_t> laid_plots(const CoverArea& area, const PictureFrame& frame) {
+  std::vector<std::uint8_t> laid(area.plots.size());
+  for (const std::int64_t id : frame.id)
+    if (const std::int64_t plot = CoverArea::plot_of(static_cast<std::uint64_t>(id));
+        plot >= 0 && plot < static_cast<std::int64_t>(laid.size()))
+      laid[static_cast<std::size_t>(plot)] = 1;
+  return laid;
+}
+
 }  // namespace
 
-void add_cover(Relief& ground, const Box<3>& domain, double spacing, const PictureFrame& frame) {
+void add_cover(Relief& ground, const Box<3>& domain, double spacing, const CoverArea* area, const PictureFrame& frame) {
   const Vec<2> size = domain.size().head<2>();
   Index<2> bins;
   Vec<2> edge;
@@ -88,6 +98,15 @@ void add_cover(Relief& ground, const Box<3>& domain, double spacing, const Pictu
                        std::min(static_cast<int>(within[1] / edge[1]), bins[1] - 1)};
     float& top = depth[flat<2>(bin, bins)];
     top = std::max(top, static_cast<float>(normal));
+  }
+  if (area) {
+    const std::vector<std::uint8_t> laid = laid_plots(*area, frame);
+    for_each_index<2>(bins, [&](const Index<2>& i) {
+      const Vec<2> place = domain.lower.head<2>() + Vec<2>((i[0] + 0.5) * edge[0], (i[1] + 0.5) * edge[1]);
+      float& top = depth[flat<2>(i, bins)];
+      if (top == 0 && area->plots.contains(place) && !laid[area->plots.at(place)] && area->contains(place))
+        top = static_cast<float>(area->depth);
+    });
   }
   // Softened, so that single particles do not show.
   const std::vector<float> smooth = softened(depth, bins, 1), even = softened(smooth, bins, 8);

@@ -29,6 +29,7 @@ std::vector<float> around(const Origin& origin, const StoredArray& points) {
 void take_particles(PictureFrame& picture, const std::vector<StoredArray>& arrays, const std::string& file) {
   picture.layer = array_values<std::uint8_t>(arrays, "layer", file);
   picture.entrained_at = array_values<float>(arrays, "entrained_at", file);
+  picture.id = array_values<std::int64_t>(arrays, "id", file);
 }
 
 void take_smoke(PictureFrame& picture, const Lattice& lattice, const std::vector<StoredArray>& arrays,
@@ -66,7 +67,7 @@ PictureFrame picture_frame(const StoredFile* particles, const StoredFile* smoke,
     picture.positions = around(origin, stored_points(particles->frame.arrays, name));
     take_particles(picture, particles->frame.arrays, name);
     const std::size_t n = picture.layer.size();
-    if (picture.positions.size() != 3 * n || picture.entrained_at.size() != n)
+    if (picture.positions.size() != 3 * n || picture.entrained_at.size() != n || picture.id.size() != n)
       throw Error(ExitCode::incompatible_file, name + ": its arrays differ in size");
   }
   if (smoke) take_smoke(picture, *smoke->frame.lattice, smoke->frame.arrays, smoke->path.string(), origin);

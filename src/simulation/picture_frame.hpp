@@ -18,6 +18,7 @@ struct PictureFrame {
   std::vector<float> positions;         ///< x, y, z of every particle [m]; empty: no snow
   std::span<const std::uint8_t> layer;  ///< 0 dense flow, 1 cover, one a particle
   std::span<const float> entrained_at;  ///< [s], -1: released, one a particle
+  std::span<const std::int64_t> id;     ///< one a particle
   Lattice lattice;                      ///< of the smoke
   std::span<const float> smoke;         ///< density [kg m^-3], one a point of the lattice; empty: no smoke
   std::span<const std::uint8_t> solid;  ///< 1: in the ground, one a point

@@ -17,6 +17,7 @@
 #include "simulation/ground.hpp"
 #include "simulation/map_cells.hpp"
 #include "simulation/outline.hpp"
+#include "simulation/setup.hpp"
 
 namespace spindrift {
 namespace {
@@ -28,7 +29,8 @@ constexpr double bytes_per_diagnostics_row = 800, bytes_per_map_cell = 250;
 // Seconds of one core, as measured.
 constexpr double seconds_per_dense_step = 1.9e-6, seconds_per_cell_step = 5.5e-8, seconds_per_frame = 0.05;
 constexpr double seconds_per_3d_picture = 1, bytes_per_3d_picture = 600e3;  // 1380 px wide
-constexpr double growth_by_cover = 2;  // of the number of moving particles, as a mean over a run
+constexpr double sweep_of_release = 12;  // ground that flow comes near, in ground under the release
+constexpr double growth_by_cover = 2;    // of the number of moving particles, as a mean over a run
 
 /// Arc length of the ground [m], without its arcs and bumps.
 double ground_length(const TerrainSection& terrain, double domain_end) {
@@ -184,7 +186,13 @@ Plan plan_scene(const Scene& scene) {
       const double end = scene.cover->to >= 0 ? scene.cover->to : ground_length(*scene.terrain, upper[0]);
       plan.cover_area = std::max(0.0, end - scene.cover->from) * width;
     }
-    if (scene.cover) plan.n_cover = std::ceil(plan.cover_area * scene.cover->depth / particle);
+    if (scene.cover) {
+      plan.n_laid = plan.n_cover = std::ceil(plan.cover_area * scene.cover->depth / particle);
+      if (field != nullptr && cover_sleeps(scene)) {
+        const double footprint = std::max(plan.release_area, std::pow(plan.release_volume, 2.0 / 3));
+        plan.n_laid = std::min(plan.n_cover, std::ceil(sweep_of_release * footprint * scene.cover->depth / particle));
+      }
+    }
   }
   if (scene.suspension) {
     plan.n_cells = 1;
@@ -196,10 +204,10 @@ Plan plan_scene(const Scene& scene) {
   }
   plan.n_steps = std::ceil(scene.scene.end_time / typical_step(scene, field));
   const OutputSection& output = scene.output;
-  const double n_particles = plan.n_release + plan.n_cover;
+  const double n_particles = plan.n_release + plan.n_laid;
   plan.n_frames = std::floor(scene.scene.end_time * output.frames_per_second) + 1;
   plan.memory = bytes_of_program + (ground ? 2.0 * static_cast<double>(ground->bytes()) : 0) +
-                bytes_per_dense * plan.n_release + bytes_per_cover * plan.n_cover + bytes_per_cell * plan.n_cells;
+                bytes_per_dense * plan.n_release + bytes_per_cover * plan.n_laid + bytes_per_cell * plan.n_cells;
   const bool deep = scene.scene.dim == 3;
   if (deep && scene.terrain && output.rasters) plan.memory += bytes_per_map_cell * count_of(empty_map(scene));
   const double picture_bytes = !output.preview ? 0 : deep ? bytes_per_3d_picture : bytes_per_picture;
@@ -232,7 +240,7 @@ double disk_available(const std::filesystem::path& folder) {
 void require_fit(const Scene& scene, const Plan& plan, const std::filesystem::path& folder) {
   const auto refuse = [](const std::string& why) { throw Error(ExitCode::would_not_fit, why); };
   constexpr double countable = 1e9;
-  const double n_particles = plan.n_release + plan.n_cover;
+  const double n_particles = plan.n_release + plan.n_laid;
   if (!(plan.n_cells <= countable))
     refuse(
         fmt::format("the grid would have {:.3g} cells, at most 1e9 can be: domain.lower to domain.upper in cells of "
@@ -242,7 +250,7 @@ void require_fit(const Scene& scene, const Plan& plan, const std::filesystem::pa
     refuse(
         fmt::format("there would be {:.3g} released and {:.3g} cover particles, at most 1e9 can be: their spacing is "
                     "{} m, dense_flow.support_radius over dense_flow.support_ratio",
-                    plan.n_release, plan.n_cover, scene.dense_flow->spacing()));
+                    plan.n_release, plan.n_laid, scene.dense_flow->spacing()));
   const double memory = 0.8 * memory_available(), disk = disk_available(folder);
   if (!(plan.memory <= memory))
     refuse(

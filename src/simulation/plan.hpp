@@ -11,7 +11,8 @@ namespace spindrift {
 /// Counts are doubles, so that the absurd stays a number.
 struct Plan {
   double n_release = 0;       ///< dense particles at the start
-  double n_cover = 0;         ///< cover particles
+  double n_cover = 0;         ///< cover particles, were all of them laid
+  double n_laid = 0;          ///< those that flow and air come near, within a factor of some
   double release_area = 0;    ///< ground under areas of release [m^2]
   double release_volume = 0;  ///< of all releases, in 2D a metre broad [m^3]
   double cover_area = 0;      ///< ground under the cover, in 2D a metre broad [m^2]

@@ -240,9 +240,9 @@ void Recorder<Dim>::write_summary(const Simulation<Dim>& s, const std::string& s
   run["n_outflow"] = m.n_outflow;
   run["grid_cells"] = s.suspension() ? s.suspension()->smoke_mass().size() : 0;
   run["active_cells"] = s.suspension() ? open_cells(*s.suspension()) : 0;
-  run["mass"] = {{"initial", m.initial},    {"injected", m.injected},          {"dense", s.dense_mass()},
-                 {"cover", s.cover_mass()}, {"smoke", s.smoke_mass()},         {"deposited", m.deposited},
-                 {"outflow", m.outflow()},  {"error_relative", s.mass_error()}};
+  run["mass"] = {{"initial", m.initial},     {"laid", m.laid},          {"injected", m.injected},
+                 {"dense", s.dense_mass()},  {"cover", s.cover_mass()}, {"smoke", s.smoke_mass()},
+                 {"deposited", m.deposited}, {"outflow", m.outflow()},  {"error_relative", s.mass_error()}};
   run["mass_entrained"] = m.entrained;
   run["smoke_generated"] = m.generated;
   run["smoke_adhered"] = m.adhered;

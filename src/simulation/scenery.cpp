@@ -84,6 +84,7 @@ void Scenery::fill_ground(const Scene& scene) {
   const Walls<3> walls = make_walls<3>(scene);
   domain_ = walls.domain;
   obstacles_ = walls.obstacles;
+  cover_ = make_cover_area(scene, walls);
   if (!walls.terrain && walls.sides[2][0] == Side::open) return;
   const Vec<2> size = domain_.size().head<2>();
   const double rim = beyond * size.maxCoeff();
@@ -145,7 +146,8 @@ Landscape Scenery::landscape(const PictureFrame& frame) const {
   landscape.boxes = obstacles_;
   landscape.opaque_smoke = opaque_smoke_;
   landscape.snow_radius = ball_of_cube * spacing_;
-  if (!ground_.empty() && !frame.positions.empty()) add_cover(landscape.ground, domain_, spacing_, frame);
+  if (!ground_.empty() && !frame.positions.empty())
+    add_cover(landscape.ground, domain_, spacing_, cover_ ? &*cover_ : nullptr, frame);
   for (std::size_t i = 0; i < frame.layer.size(); ++i) {
     if (frame.layer[i] != 0) continue;
     const float* const x = frame.positions.data() + 3 * i;

@@ -45,6 +45,7 @@ class Scenery {
   Relief ground_;  ///< bare
   std::vector<Box<3>> obstacles_;
   double spacing_ = 0;  ///< of the particles [m]
+  std::optional<CoverArea> cover_;
   double opaque_smoke_ = 1;
   Camera camera_;
   Light light_;

@@ -88,6 +88,16 @@ std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls
   return sample_cover<Dim>(*walls.terrain, layer, kind, walls.obstacles);
 }
 
+bool cover_sleeps(const Scene& scene) {
+  const bool air_everywhere = scene.suspension && !scene.suspension->tiles;
+  return scene.cover->sleeping && !air_everywhere && !(scene.entrainment && scene.entrainment->spontaneous);
+}
+
+std::optional<CoverArea> make_cover_area(const Scene& scene, const Walls<3>& walls) {
+  if (!scene.cover || !walls.terrain->height_field()) return std::nullopt;
+  return CoverArea(cover_layer(scene, walls), scene.dense_flow->spacing());
+}
+
 std::optional<SleepingCover> make_sleeping_cover(const Scene& scene, const Walls<3>& walls) {
   if (!scene.cover || !walls.terrain->height_field()) return std::nullopt;
   return SleepingCover(cover_layer(scene, walls), cover_snow<3>(scene, 0), walls.obstacles);

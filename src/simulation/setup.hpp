@@ -28,6 +28,12 @@ Walls<Dim> make_walls(const Scene& scene);
 template <int Dim>
 std::optional<Cover<Dim>> make_cover(const Scene& scene, const Walls<Dim>& walls, std::uint64_t first_id);
 
+/// Where the cover of a height field lies; empty without [cover] and on a profile.
+std::optional<CoverArea> make_cover_area(const Scene& scene, const Walls<3>& walls);
+
+/// Whether cover of a height field is laid only where flow or air come near: nothing looks at all of it.
+bool cover_sleeps(const Scene& scene);
+
 /// What lays the cover of a height field; empty without [cover] and on a profile.
 std::optional<SleepingCover> make_sleeping_cover(const Scene& scene, const Walls<3>& walls);
 

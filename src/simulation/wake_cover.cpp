@@ -10,8 +10,7 @@ void Simulation<Dim>::lay_first_cover() {
   if constexpr (Dim == 3) {
     sleeping_ = make_sleeping_cover(scene_, walls_);
     if (!sleeping_) return;
-    const bool everywhere = (suspension_ && !tiles_) || (scene_.entrainment && scene_.entrainment->spontaneous);
-    if (everywhere || !scene_.cover->sleeping) {
+    if (!cover_sleeps(scene_)) {
       sleeping_->wake_all(*cover_, *walls_.terrain->height_field());
       return sleeping_.reset();
     }

@@ -37,6 +37,13 @@ struct Plots {
   explicit Plots(const GroundLayer& layer);
 
   std::size_t size() const { return count<2>(shape); }
+  bool contains(const Vec<2>& place) const {
+    for (int k = 0; k < 2; ++k)
+      if (const int i = along(place[k], k); i < 0 || i >= shape[k]) return false;
+    return true;
+  }
+  /// The number of the plot that contains `place`.
+  std::size_t at(const Vec<2>& place) const { return flat<2>({along(place[0], 0), along(place[1], 1)}, shape); }
   /// Calls f(plot's number) for the plots that may have feet inside `box`, ascending.
   template <class F>
   void for_each_in(const Box<2>& box, F&& f) const {

@@ -36,9 +36,14 @@ void sort_by_id(Cover<3>& cover) {
 
 }  // namespace
 
+CoverArea::CoverArea(const CoverLayer& layer, double spacing)
+    : extent(ground_layer(layer, spacing).extent),
+      accepts(layer.accepts ? layer.accepts : [](const Vec<2>&) { return true; }),
+      depth(layer.depth),
+      plots(ground_layer(layer, spacing)) {}
+
 SleepingCover::SleepingCover(const CoverLayer& layer, const SnowKind<3>& kind, std::span<const Box<3>> obstacles)
-    : extent_(ground_layer(layer, kind.spacing).extent),
-      accepts_(layer.accepts ? layer.accepts : [](const Vec<2>&) { return true; }),
+    : area_(layer, kind.spacing),
       kind_(kind),
       obstacles_(obstacles.begin(), obstacles.end()),
       filling_(ground_layer(layer, kind.spacing)) {}
@@ -62,14 +67,14 @@ std::size_t SleepingCover::wake(Cover<3>& cover, const HeightField& ground,
     if (called[plot] && !std::exchange(cover.laid[plot], std::uint8_t{1})) woken.push_back(plot);
   std::vector<std::vector<FilledPlace>> filled(woken.size());
   parallel_for(
-      woken.size(), [&](std::size_t n) { filled[n] = filling_.fill(ground, woken[n], accepts_); }, 1);
+      woken.size(), [&](std::size_t n) { filled[n] = filling_.fill(ground, woken[n], area_.accepts); }, 1);
 
   const std::size_t before = cover.particles.size();
   for (std::size_t n = 0; n < woken.size(); ++n)
     for (std::size_t k = 0; k < filled[n].size(); ++k) {
       const FilledPlace& place = filled[n][k];
       if (any_within<3>(obstacles_, place.position, kind_.spacing / 2)) continue;
-      append(cover.particles, place.position, kind_, (std::uint64_t{woken[n]} + 1 << plot_bit) + k);
+      append(cover.particles, place.position, kind_, CoverArea::id(woken[n], k));
       cover.foot.push_back(place.foot);
     }
   const std::size_t laid = cover.particles.size() - before;

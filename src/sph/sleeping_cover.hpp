@@ -9,14 +9,27 @@
 
 namespace spindrift {
 
+/// Where a cover on a height field lies, asleep, awake or taken.
+struct CoverArea {
+  Box<2> extent;  ///< of its places (x, y) [m]
+  std::function<bool(const Vec<2>&)> accepts;
+  double depth = 0;  ///< [m]
+  Plots plots;
+
+  CoverArea(const CoverLayer& layer, double spacing);
+  bool contains(const Vec<2>& place) const { return extent.contains(place) && accepts(place); }
+
+  /// Particle n of plot p has the id (p + 1) 2^32 + n; released snow, of which there is less, has none as high.
+  static std::uint64_t id(std::size_t plot, std::size_t n) { return (std::uint64_t{plot} + 1 << 32) + n; }
+  /// The plot from which a particle came; -1 for released snow.
+  static std::int64_t plot_of(std::uint64_t id) { return static_cast<std::int64_t>(id >> 32) - 1; }
+};
+
 /// A cover in plots, of which each is laid when something comes near: its particles are made from the seed and the
 /// plot's place alone, sorted and numbered by plot, so that what is laid is the same whenever that was.
 /// Memory: one byte a plot of 24 d x 24 d, and one tile of particles.
 class SleepingCover {
  public:
-  /// Particle n of plot p has the id (p + 1) 2^32 + n; released snow, of which there is less, has none as high.
-  static constexpr int plot_bit = 32;
-
   /// Nothing lies within d/2 of `obstacles`.
   SleepingCover(const CoverLayer& layer, const SnowKind<3>& kind, std::span<const Box<3>> obstacles = {});
 
@@ -36,13 +49,10 @@ class SleepingCover {
   std::size_t wake_all(Cover<3>& cover, const HeightField& ground) const;
 
   const Plots& plots() const { return filling_.plots(); }
-  /// Whether there is cover at a place (x, y), asleep or taken.
-  bool covers(const Vec<2>& place) const { return extent_.contains(place) && accepts_(place); }
   std::size_t bytes() const;
 
  private:
-  Box<2> extent_;
-  std::function<bool(const Vec<2>&)> accepts_;
+  CoverArea area_;
   SnowKind<3> kind_;
   std::vector<Box<3>> obstacles_;
   GroundFilling filling_;

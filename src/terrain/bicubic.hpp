@@ -68,13 +68,17 @@ inline Jet cubic_jet(const double* points, std::size_t stride, const CubicWeight
 struct CellBounds {
   float low = 0, high = 0;  ///< of z [m]
   float slope = 0;          ///< of |(z_x, z_y)|
-  float curvature = 0;      ///< of the second derivative of z along any direction, to both sides [m^-1]
+  float hollow = 0;         ///< of the second derivative of z along any direction [m^-1]
+  float crest = 0;          ///< of its negative
+
+  double curvature() const { return static_cast<double>(std::max(hollow, crest)); }
 
   void include(const CellBounds& other) {
     low = std::min(low, other.low);
     high = std::max(high, other.high);
     slope = std::max(slope, other.slope);
-    curvature = std::max(curvature, other.curvature);
+    hollow = std::max(hollow, other.hollow);
+    crest = std::max(crest, other.crest);
   }
 };
 
@@ -90,15 +94,16 @@ inline CellBounds cubic_bounds(const double* points, std::size_t stride, double 
   const Net net = (to_bezier * z * to_bezier.transpose()).array();
   const auto dx = (3 / cell * (net.bottomRows<3>() - net.topRows<3>())).eval();
   const auto dy = (3 / cell * (net.rightCols<3>() - net.leftCols<3>())).eval();
-  const double xx = (2 / cell * (dx.bottomRows<2>() - dx.topRows<2>())).abs().maxCoeff();
-  const double yy = (2 / cell * (dy.rightCols<2>() - dy.leftCols<2>())).abs().maxCoeff();
+  const auto xx = (2 / cell * (dx.bottomRows<2>() - dx.topRows<2>())).eval();
+  const auto yy = (2 / cell * (dy.rightCols<2>() - dy.leftCols<2>())).eval();
   const double xy = (3 / cell * (dx.rightCols<3>() - dx.leftCols<3>())).abs().maxCoeff();
   const auto outward = [](double value, double to) {
     return std::nextafterf(static_cast<float>(value), static_cast<float>(to));
   };
   return {outward(net.minCoeff(), -INFINITY), outward(net.maxCoeff(), INFINITY),
           outward(std::hypot(dx.abs().maxCoeff(), dy.abs().maxCoeff()), INFINITY),
-          outward(std::max(xx, yy) + xy, INFINITY)};
+          outward(std::max({0.0, xx.maxCoeff(), yy.maxCoeff()}) + xy, INFINITY),
+          outward(std::max({0.0, -xx.minCoeff(), -yy.minCoeff()}) + xy, INFINITY)};
 }
 
 }  // namespace spindrift

@@ -63,7 +63,7 @@ class HeightField {
   Jet jet(const Vec<2>& place) const;
   Candidate candidate(const Vec<3>& x, const Vec<2>& place) const;
   Candidate descend(const Vec<3>& x, Candidate at) const;
-  bool sole(const Vec<3>& x, double above, double half_edge) const;
+  bool sole(const Vec<3>& x, double above, double r) const;
   void search(const Vec<3>& x, std::size_t level, const Index<2>& block, Candidate& best) const;
   void search_cell(const Vec<3>& x, const Index<2>& cell, Candidate& best) const;
   double cell_distance(const Vec<3>& x, const Index<2>& cell) const;

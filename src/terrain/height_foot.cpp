@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "terrain/height_field.hpp"
 
@@ -70,19 +71,22 @@ void HeightField::for_blocks_around(const Vec<3>& x, double half_edge, F&& f) co
     for (int i = first[0]; i <= last[0]; ++i) f(level, Index<2>{i, j});
 }
 
-/// Whether the squared distance from x is convex over the square of `half_edge` around it, so that it has one
-/// stationary place there. Half its second derivative along a unit vector e is 1 + (e . slope)^2 + (z - x_z) e . bend .
-/// e.
-bool HeightField::sole(const Vec<3>& x, double above, double half_edge) const {
-  double slope = 0, curvature = 0, off = 0;
-  for_blocks_around(x, half_edge, [&](std::size_t level, const Index<2>& block) {
-    const CellBounds& b = bounds(level, block);
-    slope = std::max<double>(slope, b.slope);
-    curvature = std::max<double>(curvature, b.curvature);
-    off = std::max({off, b.high - x[2], x[2] - b.low});
+/// Whether no place is nearer to x than a stationary one at distance r. Half the second derivative of the squared
+/// distance along a unit vector e is 1 + (e . slope)^2 + (z - x_z) e . bend . e. From the stationary place to a nearer
+/// one the way in plan lies in the square of half edge r around x, both ends within r of x_z, and the surface bends off
+/// its chord, of length 2 r at most, by curvature r^2 / 2 at most. If the derivative is positive all along, the other
+/// end cannot be nearer.
+bool HeightField::sole(const Vec<3>& x, double above, double r) const {
+  CellBounds b = bounds_.back()[0];
+  bool first = true;
+  for_blocks_around(x, r, [&](std::size_t level, const Index<2>& block) {
+    if (std::exchange(first, false)) b = bounds(level, block);
+    b.include(bounds(level, block));
   });
-  const double off_by_slope = std::abs(above) + slope * std::sqrt(2.0) * half_edge;
-  return curvature * std::min(off, off_by_slope) < 1;
+  const double chord = r + b.curvature() * r * r / 2, rise = static_cast<double>(b.slope) * std::sqrt(2.0) * r;
+  const double below_x = std::min({above + rise, x[2] - static_cast<double>(b.low), chord});
+  const double over_x = std::min({rise - above, static_cast<double>(b.high) - x[2], chord});
+  return static_cast<double>(b.hollow) * below_x < 1 && static_cast<double>(b.crest) * over_x < 1;
 }
 
 Box<2> HeightField::block_extent(std::size_t level, const Index<2>& block) const {
@@ -130,7 +134,7 @@ double HeightField::cell_distance(const Vec<3>& x, const Index<2>& cell) const {
   const CellBounds& b = bounds(0, cell);
   const Candidate middle = candidate(x, corner_ + cell_ * Vec<2>(cell[0] + 0.5, cell[1] + 0.5));
   const Vec<2> gradient = middle.place - x.head<2>() + (middle.jet.z - x[2]) * middle.jet.slope;
-  const double off = std::max(b.high - x[2], x[2] - b.low), bend = std::max(0.0, b.curvature * off - 1);
+  const double off = std::max(b.high - x[2], x[2] - b.low), bend = std::max(0.0, b.curvature() * off - 1);
   return middle.squared - cell_ * gradient.lpNorm<1>() - bend * cell_ * cell_ / 2;
 }
 
@@ -158,9 +162,9 @@ Foot<3> HeightField::foot(const Vec<3>& x, double reach) const {
   if (std::abs(above) >= reach * lipschitz_) return foot;
 
   Candidate best = descend(x, below);
-  const double farthest = std::min(std::sqrt(best.squared), reach);
+  const double r = std::sqrt(best.squared), farthest = std::min(r, reach);
   best.squared = std::min(best.squared, reach * reach);
-  if (!sole(x, above, farthest))
+  if (!sole(x, above, r))
     for_blocks_around(x, farthest, [&](std::size_t level, const Index<2>& block) { search(x, level, block, best); });
   if (best.squared >= reach * reach) return foot;
 
