@@ -75,7 +75,7 @@ Case heavy_ball(std::string name, const Series& refined, const std::string& radi
       "The walls, {} radii away, hold up the air that flows back: {} % of the acceleration are missing for that. What "
       "is left is the rim, a cell thick, where a face takes the mean density of smoke and air; of first order, and "
       "gone for light smoke. "
-      "Half of it on a slope through the cells, under gravity along the slope, falls as the whole does to 2e-4 (B13).",
+      "Half of it on a slope through the cells, under gravity along the slope, falls as the whole does to 3e-4 (B13).",
       radii, Dim == 2 ? "0.3" : "0.5");
   what.quick = Dim == 3;
   what.compare = Compare<Dim>(compare_added_mass<Dim>);
