@@ -29,6 +29,21 @@ double cover_height(const Cover<Dim>& cover, const Vec<Dim - 1>& place) {
   return height;
 }
 
+/// The box as nodes can see it: one that stands between two planes of nodes reaches to the nearer, so that it closes
+/// the faces there.
+template <int Dim>
+Box<Dim> seen_by_nodes(Box<Dim> box, const MacGrid<Dim>& grid) {
+  constexpr double beyond = 1e-6;  // of a cell: the plane lies inside, however the distances round
+  for (int k = 0; k < Dim; ++k) {
+    const double lower = (box.lower[k] - grid.origin[k]) / grid.dx, upper = (box.upper[k] - grid.origin[k]) / grid.dx;
+    if (std::ceil(lower + beyond) <= upper - beyond) continue;
+    const double plane = std::round((lower + upper) / 2);
+    box.lower[k] = grid.origin[k] + grid.dx * std::min(lower, plane - beyond);
+    box.upper[k] = grid.origin[k] + grid.dx * std::max(upper, plane + beyond);
+  }
+  return box;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -76,6 +91,8 @@ void GroundSurface<Dim>::look_at(const Walls<Dim>& walls, F&& is_new) {
   const Index<Dim> shape = grid_.nodes();
   Index<Dim> layer = shape;
   layer[Dim - 1] = 1;
+  std::vector<Box<Dim>> obstacles;
+  for (const Box<Dim>& obstacle : walls.obstacles) obstacles.push_back(seen_by_nodes<Dim>(obstacle, grid_));
   std::vector<std::vector<Near>> found(static_cast<std::size_t>(shape[Dim - 1]));
   const auto look = [&](std::size_t height) {
     for_each_index<Dim>(layer, [&](Index<Dim> i) {
@@ -83,7 +100,7 @@ void GroundSurface<Dim>::look_at(const Walls<Dim>& walls, F&& is_new) {
       if (!is_new(i)) return;
       const Vec<Dim> x = grid_.node(i);
       double obstacle_distance = reach_;
-      for (const Box<Dim>& obstacle : walls.obstacles)
+      for (const Box<Dim>& obstacle : obstacles)
         obstacle_distance = std::min(obstacle_distance, surface_of<Dim>(obstacle, x).distance);
       distance_[i] = obstacle_distance;
       if (!walls.terrain) return;

@@ -43,7 +43,7 @@ class Ground {
 
   std::size_t bytes() const;
 
-  static constexpr double smallest_opening = 0.01;
+  static constexpr double smallest_opening = 1e-9;  // rounding; what closes more leaves cells that a stream cannot pass
   static constexpr double smallest_volume = 0.1;
   static constexpr int n_layers = 3;
   /// Columns beyond those of set() or clear_deep() whose faces may change.

@@ -129,7 +129,8 @@ class Warner {
         thickness = std::min(thickness, obstacle.upper[k] - obstacle.lower[k]);
       if (thickness < least)
         add(numbered("obstacle", i, scene_.obstacle.size()),
-            fmt::format("thinner than two particles or cells ({} m): snow or smoke may pass through it",
+            fmt::format("thinner than two particles or cells ({} m): snow feels what lies behind it, and the air whole "
+                        "faces of cells",
                         number_text(least)));
     }
   }

@@ -23,6 +23,15 @@ Vec<Dim> slow(Particles<Dim>& dense, std::size_t i, const Vec<Dim>& normal, doub
   return impulse;
 }
 
+/// The part of gravity that presses snow onto ground of this normal [m s^-2]; 0 on faces of 90 degrees, whose normals
+/// round, and under overhangs.
+template <int Dim>
+double pressing(const Vec<Dim>& gravity, const Vec<Dim>& normal) {
+  constexpr double rounding = 1e-6;
+  const double g_normal = -gravity.dot(normal);
+  return g_normal > rounding * gravity.norm() ? g_normal : 0;
+}
+
 /// b = g dt / (xi h) [s m^-1].
 double turbulent_rate(const BedFriction& friction, double g, double thickness, double dt) {
   return friction.xi > 0 ? g * dt / (friction.xi * thickness) : 0;
@@ -61,7 +70,7 @@ Vec<Dim> apply_column_friction(Particles<Dim>& dense, Columns<Dim>& columns, con
     const double turbulent = turbulent_rate(friction, g, column.thickness, dt);
     for (const std::uint32_t i : columns.standing(column)) {
       const Vec<Dim>& normal = columns.foot[i].normal;
-      const double g_normal = -gravity.dot(normal);
+      const double g_normal = pressing<Dim>(gravity, normal);
       if (g_normal > 0) impulse += slow(dense, i, normal, friction.mu * g_normal * dt, turbulent);
     }
     return impulse;
@@ -79,7 +88,7 @@ Vec<Dim> apply_base_friction(Particles<Dim>& dense, Columns<Dim>& columns, const
     for (const std::uint32_t i : columns.standing(column)) {
       const Foot<Dim>& foot = columns.foot[i];
       const bool basal = foot.distance - column.bed < spacing || normal_impulse[i] > 0;
-      if (!basal || !(gravity.dot(foot.normal) < 0) || !(dense.mass[i] > 0)) continue;
+      if (!basal || !(pressing<Dim>(gravity, foot.normal) > 0) || !(dense.mass[i] > 0)) continue;
       impulse += slow(dense, i, foot.normal, friction.mu * normal_impulse[i] / dense.mass[i], turbulent);
     }
     return impulse;
@@ -90,7 +99,7 @@ template <int Dim>
 double bed_traction(const Column<Dim>& column, const BedFriction& friction, const Vec<Dim>& normal,
                     const Vec<Dim>& gravity) {
   const double speed_squared = (column.velocity - column.velocity.dot(normal) * normal).squaredNorm();
-  const double g_normal = -gravity.dot(normal);
+  const double g_normal = pressing<Dim>(gravity, normal);
   if (!(speed_squared > 0) || !(g_normal > 0) || !(column.thickness > 0)) return 0;
   const double coulomb = friction.mu * column.mass_per_area * g_normal;
   if (!(friction.xi > 0)) return coulomb;

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "terrain/swept.hpp"
 
 namespace spindrift {
 namespace {
@@ -120,8 +121,13 @@ Vec<Dim> DenseFlow<Dim>::move(double dt, const Walls<Dim>& walls, Stages& stages
   return parallel_sum<Vec<Dim>>(particles.size(), Vec<Dim>::Zero(), [&](std::size_t i) -> Vec<Dim> {
     Vec<Dim>& x = particles.position[i];
     Vec<Dim>& v = particles.velocity[i];
-    const Vec<Dim> before = v;
+    const Vec<Dim> before = v, start = x;
     x += dt * v;
+    for (const Box<Dim>& obstacle : walls.obstacles)
+      if (const auto hit = entry_into<Dim>(obstacle, start, x)) {
+        x += (hit->place - x.dot(hit->normal.cwiseAbs())) * hit->normal.cwiseAbs();
+        v -= std::min(0.0, v.dot(hit->normal)) * hit->normal;
+      }
     const auto put_back = [&](double distance, const Vec<Dim>& normal) {
       x -= distance * normal;
       v -= std::min(0.0, v.dot(normal)) * normal;

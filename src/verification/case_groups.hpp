@@ -12,6 +12,7 @@ std::vector<Case> slope_flow_cases();
 std::vector<Case> air_flow_cases();
 std::vector<Case> smoke_cases();
 std::vector<Case> cloud_cases();
+std::vector<Case> embedded_ground_cases();
 std::vector<Case> plume_cases();
 std::vector<Case> coupling_cases();
 std::vector<Case> entrainment_cases();

@@ -10,8 +10,8 @@ namespace spindrift {
 
 std::vector<Case> verification_cases() {
   std::vector<Case> all;
-  for (auto* group : {free_surface_cases, slope_flow_cases, air_flow_cases, smoke_cases, cloud_cases, plume_cases,
-                      coupling_cases, entrainment_cases})
+  for (auto* group : {free_surface_cases, slope_flow_cases, air_flow_cases, smoke_cases, cloud_cases,
+                      embedded_ground_cases, plume_cases, coupling_cases, entrainment_cases})
     for (Case& one : group()) all.push_back(std::move(one));
   return all;
 }

@@ -96,9 +96,7 @@ std::string watched_run(const Scene& scene, TrialResult& result, Watch& watch) {
   if (!trial.beyond)
     watch.expect(result.energy_growth <= largest_energy_growth,
                  fmt::format("energy grew by {:.2g} %, seen at the end", 100 * result.energy_growth), result.steps);
-  if constexpr (Dim == 2) {
-    if (trial.look && watch.fault.empty()) watch.fault = trial.look(simulation);
-  }
+  if (const auto& look = std::get<Look<Dim>>(trial.look); look && watch.fault.empty()) watch.fault = look(simulation);
   return state_digest(simulation);
 }
 

@@ -6,12 +6,17 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "simulation/simulation.hpp"
 
 namespace spindrift {
+
+/// What is wrong at the end of a trial; empty: nothing.
+template <int Dim>
+using Look = std::function<std::string(const Simulation<Dim>& end)>;
 
 /// One trial: a scene with settings, run for some steps, twice.
 struct Trial {
@@ -22,8 +27,8 @@ struct Trial {
   bool refused = false;               ///< the scene must be refused, with a reason
   bool beyond = false;                ///< outside the documented range: the run may also end as unstable, with a reason
   int steps = 100;
-  /// What else is wrong at the end, empty: nothing; may be empty.
-  std::function<std::string(const Simulation<2>& end)> look = {};
+  std::tuple<Look<2>, Look<3>> look = {};                       ///< may be empty
+  std::string remark = {};                                      ///< why it does not go as it should; empty: it has to
   std::vector<std::pair<std::string, double>> parameters = {};  ///< of a point of the map
 };
 
@@ -52,6 +57,9 @@ TrialResult run_trial(const Trial& trial);
 
 /// The extreme set: empty, huge, stiff, degenerate and malformed scenes.
 std::vector<Trial> extreme_trials();
+
+/// Of these the ones of ground, grid and obstacles, which are the same in 2D and 3D.
+std::vector<Trial> shape_trials();
 
 /// n points of a seeded Latin hypercube over CFL numbers, drag constant, mass ratio, r_s of the smoke, slope angle and
 /// viscosities. Beyond the documented range are snow lighter than the air with its smoke, and the reflection scheme

@@ -55,7 +55,7 @@ void add_extremes(Page& page, const std::vector<TrialResult>& results) {
                     ran ? fmt::format("{:.1e}", r.mass_error) : "",
                     ran ? fmt::format("{:.1g} %", 100 * r.energy_growth) : "",
                     ran ? fmt::format("{:.3g}", r.fastest) : "", ran ? fmt::format("{}", r.pressure_iterations) : "",
-                    short_reason(r.reason)});
+                    short_reason(r.reason) + (r.good() || r.trial.remark.empty() ? "" : ": " + r.trial.remark)});
   }
   page.table({"set", "what is extreme", "verdict", "steps", "mass error", "energy growth", "fastest [m/s]",
               "most pressure iterations", "reason"},

@@ -121,3 +121,35 @@ TEMPLATE_TEST_CASE_SIG("Following the cover is the same as building its surface 
       REQUIRE(surface.node_distance()[node] == anew.node_distance()[node]);
   }
 }
+
+TEMPLATE_TEST_CASE_SIG("F13: a wall thinner than a cell closes one layer of faces, wherever it stands", "[coupling]",
+                       ((int Dim), Dim), 2, 3) {
+  const double dx = 0.25, begin = GENERATE(0.0, 0.1, 0.37, 0.5, 0.63, 0.9, 0.999);
+  const double thickness = GENERATE(1e-6, 0.04, 0.4, 0.99);
+  MacGrid<Dim> grid;
+  grid.dx = dx;
+  grid.origin = Vec<Dim>::Constant(-1.3);
+  grid.cells.fill(9);
+  Walls<Dim> walls;
+  Box<Dim> wall{Vec<Dim>(Vec<Dim>::Constant(-9)), Vec<Dim>(Vec<Dim>::Constant(9))};
+  wall.lower[0] = grid.origin[0] + (3 + begin) * dx;
+  wall.upper[0] = wall.lower[0] + thickness * dx;
+  walls.obstacles.push_back(wall);
+  Suspension<Dim> air = [&] {
+    typename Suspension<Dim>::Sides sides;
+    for (auto& axis : sides) axis = {Side::closed, Side::closed};
+    return Suspension<Dim>(grid, sides, {});
+  }();
+  air.set_ground(GroundSurface<Dim>(walls, grid, nullptr).node_distance());
+  Index<Dim> rows = grid.cells;
+  rows[0] = 1;
+  for_each_index<Dim>(rows, [&](Index<Dim> i) {
+    int closed = 0;
+    for (i[0] = 1; i[0] < grid.cells[0]; ++i[0]) closed += air.ground().open()[0][i] == 0;
+    CHECK(closed >= 1);
+    CHECK(closed <= 2);
+    double open = 0;
+    for (i[0] = 0; i[0] < grid.cells[0]; ++i[0]) open += air.ground().volume()[i] / grid.cell_volume();
+    CHECK(open >= grid.cells[0] - 1.01);
+  });
+}

@@ -13,9 +13,9 @@ constexpr double d = 0.105;
 
 /// Snow from z = 0 (a closed floor) to `rows` spacings, several spacings wide.
 template <int Dim>
-DenseFlow<Dim> block(const Vec<Dim>& shift, int rows) {
+DenseFlow<Dim> block(const Vec<Dim>& shift, int rows, double support = 2 * d) {
   DenseFlowOptions options;
-  options.support_radius = 2 * d;
+  options.support_radius = support;
   options.spacing = d;
   DenseFlow<Dim> dense(options);
   Index<Dim> shape;
@@ -41,14 +41,15 @@ Walls<Dim> floor_at(double z) {
 
 /// Rows (by height) of overlap particles in the middle of the block, away from its flanks.
 template <int Dim>
-std::vector<int> overlap_rows(const Vec<Dim>& shift, int rows, bool with_floor, double fraction = 0.8) {
-  DenseFlow<Dim> dense = block<Dim>(shift, rows);
+std::vector<int> overlap_rows(const Vec<Dim>& shift, int rows, bool with_floor, double fraction = 0.8,
+                              double support = 2 * d) {
+  DenseFlow<Dim> dense = block<Dim>(shift, rows, support);
   const Walls<Dim> walls = floor_at<Dim>(with_floor ? shift[Dim - 1] : -40);
   Stages stages;
   dense.sort(walls, stages);
   dense.find_neighbours(walls, {}, stages);
   std::vector<std::uint8_t> overlap;
-  classify_overlap<Dim>(overlap, dense, {}, walls, fraction, interior_number_density<Dim>(d, 2 * d));
+  classify_overlap<Dim>(overlap, dense, {}, walls, fraction, interior_number_density<Dim>(d, support));
   std::vector<int> found;
   for (std::size_t i = 0; i < dense.particles.size(); ++i) {
     const Vec<Dim> x = (dense.particles.position[i] - shift) / d;
@@ -59,6 +60,42 @@ std::vector<int> overlap_rows(const Vec<Dim>& shift, int rows, bool with_floor, 
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+/// n at a place among the particles of a lattice, itself left out, over n in the interior: the row `below` rows under
+/// the surface of a half-space has the points up to `below` rows above it.
+template <int Dim>
+double share_of_row(int below, double support) {
+  const int reach = static_cast<int>(support / d) + 1;
+  double n = 0, interior = 0;
+  Index<Dim> around;
+  around.fill(2 * reach + 1);
+  for_each_index<Dim>(around, [&](const Index<Dim>& i) {
+    double squared = 0;
+    for (const int k : i) squared += std::pow(d * (k - reach), 2);
+    const double r = std::sqrt(squared);
+    if (r == 0 || r >= support) return;
+    interior += support / r - 1;
+    if (i[Dim - 1] - reach <= below) n += support / r - 1;
+  });
+  return n / interior;
+}
+
+/// Overlap rows where particles take the class of the nearest node of a grid with cells of dx, as the paper has it.
+template <int Dim>
+std::size_t n_rows_by_nodes(const Vec<Dim>& shift, int rows, double dx) {
+  const DenseFlow<Dim> dense = block<Dim>(shift, rows);
+  const std::vector<Vec<Dim>>& all = dense.particles.position;
+  std::size_t n_rows = 0;
+  for (int row = 0; row < rows; ++row) {
+    Vec<Dim> x = shift + Vec<Dim>::Constant((Dim == 2 ? 12.5 : 5.5) * d);
+    x[Dim - 1] = shift[Dim - 1] + (row + 0.5) * d;
+    const Vec<Dim> node = dx * (x / dx).array().round().matrix();
+    double n = 0;
+    for (const Vec<Dim>& other : all) n += std::max(0.0, 2 * d / std::max((other - node).norm(), d) - 1);
+    n_rows += n < 0.8 * interior_number_density<Dim>(d, 2 * d);
+  }
+  return n_rows;
 }
 
 }  // namespace
@@ -102,6 +139,31 @@ TEMPLATE_TEST_CASE_SIG("C10, control: the surface row has the share of neighbour
   CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 8, true, share - 0.001).empty());
   CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 8, true, share + 0.001) == std::vector<int>{7});
   CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 8, true, 10) == std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7});
+}
+
+TEMPLATE_TEST_CASE_SIG("C10: the band grows with the threshold, row by row", "[coupling]", ((int Dim), Dim), 2, 3) {
+  const double support = GENERATE(2.0, 3.0, 3.9) * d;
+  const int deepest = static_cast<int>(support / d * 0.999);  // the last row that the surface's air is in reach of
+  std::vector<int> band;
+  for (int below = 0; below < deepest; ++below) {
+    const double share = share_of_row<Dim>(below, support);
+    CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 9, true, share - 1e-3, support) == band);
+    band.insert(band.begin(), 8 - below);
+    CHECK(overlap_rows<Dim>(Vec<Dim>::Zero(), 9, true, share + 1e-3, support) == band);
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("C10, control: classes of nodes farther apart than h change as the snow is moved", "[coupling]",
+                       ((int Dim), Dim), 2, 3) {
+  const double dx = GENERATE(0.33, 1.0);
+  std::size_t least = 99, most = 0;
+  for (const double fraction : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+    const Vec<Dim> shift = Vec<Dim>::Constant(fraction * dx);
+    CHECK(overlap_rows<Dim>(shift, 8, true) == std::vector<int>{7});
+    const std::size_t n = n_rows_by_nodes<Dim>(shift, 8, dx);
+    least = std::min(least, n), most = std::max(most, n);
+  }
+  CHECK(most > least);
 }
 
 TEMPLATE_TEST_CASE_SIG("A core cell is at least half full of snow outside overlap", "[coupling]", ((int Dim), Dim), 2,

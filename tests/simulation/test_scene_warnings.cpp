@@ -56,7 +56,8 @@ TEST_CASE("scenes that hardly mean what they say get a warning with its place an
        "a.toml:11:2: warning: release: 40 of its 40 particles lie outside the domain and will be "
        "gone at once"},
       {good + "[obstacle]\nlower = [50, 0]\nupper = [50.5, 30]\n",
-       "a.toml:12:2: warning: obstacle: thinner than two particles or cells (1 m): snow or smoke may pass through it"},
+       "a.toml:12:2: warning: obstacle: thinner than two particles or cells (1 m): snow feels what lies behind it, and "
+       "the air whole faces of cells"},
       {good + "[suspension]\ncell_size = 1\nwall = \"no_slip\"\n",
        "a.toml:14:8: warning: suspension.wall: has no effect on air without viscosity: suspension.viscosity is 0"},
       {head + "left = \"closed\"\n[suspension]\nwind = [3, 0]\n",

@@ -90,6 +90,19 @@ TEMPLATE_TEST_CASE_SIG("The ledger accounts for all momentum of the snow and of 
   }
 }
 
+TEMPLATE_TEST_CASE_SIG("C10: the overlap region does not change with the air's cells", "[simulation]", ((int Dim), Dim),
+                       2, 3) {
+  std::vector<std::size_t> counts;
+  for (const char* dx : {"0.15", "0.33", "0.5", "1"}) {
+    Simulation<Dim> simulation(scene_of(std::string(avalanche<Dim>()), {std::string("suspension.cell_size=") + dx}));
+    simulation.step();
+    counts.push_back(simulation.report().n_overlap);
+    CHECK(simulation.report().n_overlap < simulation.dense()->particles.size());
+  }
+  CHECK(counts.front() > 0);
+  CHECK(counts == std::vector<std::size_t>(counts.size(), counts.front()));
+}
+
 TEMPLATE_TEST_CASE_SIG("The same bits with any number of threads", "[simulation]", ((int Dim), Dim), 2, 3) {
   std::vector<std::string> settings = GENERATE(std::vector<std::string>{}, tiles);
   settings.push_back("scene.end_time=0.2");

@@ -81,6 +81,18 @@ TEMPLATE_TEST_CASE_SIG("A11: a Coulomb block slides as g (sin - mu cos) t^2 / 2"
   CHECK(impulse[0] > 0);
 }
 
+TEMPLATE_TEST_CASE_SIG("F1: friction goes with the normal part of gravity, to nothing at 90 degrees", "[friction]",
+                       ((int Dim), Dim), 2, 3) {
+  const double angle = GENERATE(0.0, 60.0, 89.0, 89.9) * M_PI / 180, mu = 0.4, dt = 1e-4;
+  const Terrain<Dim> terrain = incline<Dim>(angle);
+  Particles<Dim> snow = row<Dim>(terrain);
+  const Vec<Dim> downhill = terrain.position(Vec<Dim - 1>::Unit(0), 0) - terrain.position(Vec<Dim - 1>::Zero(), 0);
+  for (Vec<Dim>& v : snow.velocity) v = 3 * downhill;
+  slide<Dim>(snow, terrain, {.mu = mu, .xi = 0}, dt, 10);
+  const double gained = snow.velocity.front().dot(downhill) - 3;
+  CHECK(gained == Approx(10 * dt * g * (std::sin(angle) - mu * std::cos(angle))).epsilon(1e-9));
+}
+
 TEMPLATE_TEST_CASE_SIG("A11: below its angle of friction snow at rest does not creep in 60 s", "[friction]",
                        ((int Dim), Dim), 2, 3) {
   const Terrain<Dim> terrain = incline<Dim>(14 * M_PI / 180);

@@ -92,6 +92,40 @@ TEMPLATE_TEST_CASE_SIG("a 30 m/s impact does not leak through a floor", "[dense_
   CHECK(after[Dim - 1] > before[Dim - 1]);
 }
 
+TEMPLATE_TEST_CASE_SIG("F13: snow stops at a wall a thousandth as thick as its way in a step", "[dense_flow]",
+                       ((int Dim), Dim), 2, 3) {
+  const double d = 0.1, dx = 0.25, dt = 0.01, way = 10 * dx;
+  DenseFlow<Dim> flow(options_for<Dim>(d));
+  Walls<Dim> walls = box<Dim>(Vec<Dim>::Constant(100), Side::open);
+  Box<Dim> wall{Vec<Dim>(Vec<Dim>::Zero()), Vec<Dim>(Vec<Dim>::Constant(100))};
+  wall.lower[0] = 50, wall.upper[0] = 50 + way / 1000;
+  walls.obstacles.push_back(wall);
+  Vec<Dim> v = Vec<Dim>::Constant(3);
+  v[0] = way / dt;
+  for (const double gap : {0.0, 0.3, 0.999, 1.001}) {
+    Vec<Dim> x = Vec<Dim>::Constant(20);
+    x[0] = 50 - gap * way;
+    add_particle<Dim>(flow.particles, x, v, std::pow(d, Dim), 300);
+  }
+  Stages stages;
+  const Vec<Dim> impulse = flow.move(dt, walls, stages);
+  const double m = flow.particles.mass[0];
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(flow.particles.position[i][0] == Approx(50).epsilon(1e-14));
+    CHECK(flow.particles.velocity[i][0] == 0);
+    CHECK(flow.particles.position[i][Dim - 1] == Approx(20.03));
+    CHECK(flow.particles.velocity[i][Dim - 1] == 3);
+  }
+  CHECK(flow.particles.position[3][0] == Approx(50 - 0.001 * way));
+  CHECK(flow.particles.velocity[3] == v);
+  CHECK(impulse[0] == Approx(-3 * m * way / dt));
+  for (int step = 0; step < 3; ++step) {  // pressed against it, it stays
+    flow.particles.velocity[0][0] = way / dt;
+    flow.move(dt, walls, stages);
+    CHECK(flow.particles.position[0][0] == Approx(50).epsilon(1e-14));
+  }
+}
+
 // Case A15 of the validation catalogue.
 TEMPLATE_TEST_CASE_SIG("a rotating patch in free fall keeps its momenta", "[dense_flow]", ((int Dim), Dim), 2, 3) {
   const double d = 0.05, omega = 2, dt = 0.005;

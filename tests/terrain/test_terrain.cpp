@@ -80,6 +80,20 @@ TEST_CASE("A cliff's face has a level normal and keeps its edges", "[terrain]") 
   CHECK(cliff.profile()->height(5.001) == 0);
 }
 
+TEMPLATE_TEST_CASE_SIG("F1: normals around a cliff are unit vectors, on its edges too", "[terrain]", ((int Dim), Dim),
+                       2, 3) {
+  const Terrain<Dim> cliff({{0, 10}, {5, 10}, {5, 0}, {20, 0}});
+  for (const double x : {0.0, 4.9, 5.0 - 1e-12, 5.0, 5.0 + 1e-12, 5.1, 20.0})
+    for (const double z : {-1.0, 0.0, 1e-12, 5.0, 10.0 - 1e-12, 10.0, 10.0 + 1e-12, 12.0}) {
+      CAPTURE(x, z);
+      const Foot<Dim> foot = cliff.foot(at<Dim>(x, z));
+      CHECK(std::isfinite(foot.distance));
+      CHECK(foot.normal.norm() == Approx(1));
+      CHECK(foot.normal[0] >= -1e-9);
+      CHECK(foot.normal[Dim - 1] >= -1e-9);
+    }
+}
+
 TEST_CASE("Profiles that make no ground are refused", "[terrain]") {
   CHECK_THROWS_AS(Terrain<2>({{0, 0}}), Error);
   CHECK_THROWS_AS(Terrain<2>({{0, 0}, {0, 1}}), Error);

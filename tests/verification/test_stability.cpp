@@ -16,7 +16,11 @@ void check_good(const Trial& trial) {
   const TrialResult result = run_trial(trial);
   CAPTURE(trial.set, trial.name, std::string(name_of(result.verdict)), result.reason, result.mass_error,
           result.energy_growth);
-  CHECK(result.good());
+  CHECK(result.good() == trial.remark.empty());  // what is mended loses its remark
+}
+
+bool of_shape(const Trial& trial) {
+  return trial.set == "F1" || trial.set == "F7" || trial.set == "F13";
 }
 
 }  // namespace
@@ -25,10 +29,15 @@ TEST_CASE("The extreme set goes as it should", "[stability][slow]") {
   std::set<std::string> sets;
   for (Trial trial : extreme_trials()) {
     sets.insert(trial.set);
+    if (of_shape(trial)) continue;
     trial.steps = std::min(trial.steps, 1000);
     check_good(trial);
   }
   CHECK(sets.size() >= 18);
+}
+
+TEST_CASE("Extreme ground, grids and obstacles go as they should in 2D and 3D (F1, F7, F13)", "[stability][slow]") {
+  for (const Trial& trial : shape_trials()) check_good(trial);
 }
 
 TEST_CASE("Forty points of the stability map pass", "[stability][slow]") {
@@ -65,7 +74,7 @@ TEST_CASE("A trial that must be refused and runs, or must run and is refused, is
   CHECK(refused.verdict == Verdict::refused);
   CHECK(!refused.good());
   trial.settings.back() = "suspension.cfl=1";
-  trial.look = [](const Simulation<2>&) { return "something else is wrong"; };
+  std::get<Look<2>>(trial.look) = [](const Simulation<2>&) { return "something else is wrong"; };
   CHECK(run_trial(trial).reason == "something else is wrong");
 }
 
