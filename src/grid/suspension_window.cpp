@@ -35,25 +35,33 @@ template <int Dim>
 typename Suspension<Dim>::Forgotten Suspension<Dim>::move_window(const MacGrid<Dim>& window, const Sides& sides,
                                                                  const Field<Dim>& node_distance) {
   Forgotten forgotten{momentum(), total_smoke()};
-  Suspension moved(window, sides, options_);
+  const FaceField<Dim> velocity = std::move(velocity_), carrier = std::move(carrier_);
+  const Field<Dim> smoke = std::move(smoke_), pressure = projection_.pressure();
+  const Field<Dim, CellKind> kind = std::move(kind_);
+  const Index<Dim> lower = grid_.lower;
+  const SuspensionOptions<Dim> options = options_;
+  const bool disturbed = disturbed_;
+  // What is not state goes before the new window is built, so that two are never held at a time.
+  static_cast<void>(Suspension(std::move(*this)));
+
+  *this = Suspension(window, sides, options);
   for (std::size_t axis = 0; axis < Dim; ++axis) {
-    copy_shared<Dim>(moved.velocity_[axis], window.lower, velocity_[axis], grid_.lower);
-    copy_shared<Dim>(moved.carrier_[axis], window.lower, carrier_[axis], grid_.lower);
+    copy_shared<Dim>(velocity_[axis], window.lower, velocity[axis], lower);
+    copy_shared<Dim>(carrier_[axis], window.lower, carrier[axis], lower);
   }
-  copy_shared<Dim>(moved.smoke_, window.lower, smoke_, grid_.lower);
-  copy_shared<Dim>(moved.kind_, window.lower, kind_, grid_.lower);
-  Field<Dim> pressure(window.cells);
-  copy_shared<Dim>(pressure, window.lower, projection_.pressure(), grid_.lower);
-  moved.projection_.set_pressure(pressure);
-  moved.disturbed_ = disturbed_;
-  moved.kinds_are_old_ = true;
+  copy_shared<Dim>(smoke_, window.lower, smoke, lower);
+  copy_shared<Dim>(kind_, window.lower, kind, lower);
+  Field<Dim> shared_pressure(window.cells);
+  copy_shared<Dim>(shared_pressure, window.lower, pressure, lower);
+  projection_.set_pressure(shared_pressure);
+  disturbed_ = disturbed;
+  kinds_are_old_ = true;
   if (node_distance.size() > 0) {
-    moved.set_ground(node_distance);
+    set_ground(node_distance);
   } else {
-    moved.update_active(0, window.cells[0]);
+    update_active(0, window.cells[0]);
   }
-  moved.find_carrier_speeds();
-  *this = std::move(moved);
+  find_carrier_speeds();
   forgotten.momentum = momentum() - forgotten.momentum;
   forgotten.smoke -= total_smoke();
   return forgotten;

@@ -83,7 +83,7 @@ void measure(Column<Dim>& c, const Columns<Dim>& columns, const Particles<Dim>& 
     ++c.end_standing;
   }
   if (c.end_standing == c.first) return;
-  c.thickness = volume / c.area;
+  c.thickness = std::max(volume / c.area, spacing / 8);
   c.mass_per_area = mass / c.area;
   if (mass > 0) c.velocity = momentum / mass;
 }

@@ -20,7 +20,7 @@ struct Column {
   GroundBin<Dim> bin{};
   double area = 0;                       ///< A, of its ground [m^(Dim-1)]
   double bed = 0;                        ///< normal distance of the bed from the ground [m]: the cover's surface, or 0
-  double thickness = 0;                  ///< h_flow = sum V / A [m]; 0: nothing stands on the bed
+  double thickness = 0;                  ///< h_flow = sum V / A, at least d/8 [m]; 0: nothing stands on the bed
   double mass_per_area = 0;              ///< sum m / A [kg m^-2]
   Vec<Dim> velocity = Vec<Dim>::Zero();  ///< of the column's centre of mass [m s^-1]
   Vec<Dim> friction =

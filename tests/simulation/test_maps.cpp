@@ -110,7 +110,8 @@ TEST_CASE("A folder of AvaFrame is a scene: ground, domain, release and cover", 
   CHECK(plan.cover_area == Approx(1600 * ratio).epsilon(0.01));
   const Scene near = around_local_origin(scene);
   const Walls<3> walls = make_walls<3>(near);
-  const auto cover = make_cover<3>(near, walls, 0);
+  auto cover = make_cover<3>(near, walls, 0);
+  make_sleeping_cover(near, walls)->wake_all(*cover, *walls.terrain->height_field());
   CHECK(static_cast<double>(cover->particles.size()) == Approx(plan.n_cover).epsilon(0.02));
   for (const Foot<3>& foot : cover->foot) REQUIRE(inside(near.cover->areas[0], foot.place[0], foot.place[1]));
   // Where a release reaches over the cover its snow lies on the cover, elsewhere on the ground.
