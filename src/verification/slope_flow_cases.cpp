@@ -293,7 +293,7 @@ Case voellmy() {
   slab.quick = true;
   slab.remark =
       "One row of particles keeps its thickness, and the error is that of the time step. In a slab of several rows the "
-      "thickness of the columns, two particles wide, changes as the rows mix: 0.1 to 0.2 %. The slab's ends thin out "
+      "thickness of the columns, two particles wide, changes as the rows mix: 0.03 %. The slab's ends thin out "
       "and "
       "get slower; they do not reach its middle in this time.";
   slab.compare = Compare<2>(compare_voellmy);
