@@ -120,13 +120,18 @@ typename Simulation<Dim>::TimeStep Simulation<Dim>::choose_time_step() const {
   return step;
 }
 
+/// How far the dense flow looks for the ground below it [m]: for columns all the way, else as far as walls act.
+template <int Dim>
+double Simulation<Dim>::ground_reach() const {
+  if (bed_friction_ || entrainment_) return std::numeric_limits<double>::infinity();
+  return dense_->options().support_radius;
+}
+
 /// Gravity on both media; the later stages add none.
 template <int Dim>
 void Simulation<Dim>::predict_velocities() {
   if (dense_) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const bool in_columns = bed_friction_ || entrainment_;
-    dense_->sort(walls_, stages_, in_columns ? infinity : dense_->options().support_radius);
+    dense_->sort(walls_, stages_, ground_reach());
     wake_cover_near_snow(dense_->feet());
     dense_->find_neighbours(walls_, cover_view(), stages_);
     Particles<Dim>& p = dense_->particles;

@@ -78,6 +78,7 @@ class Simulation {
   void try_step(const TimeStep& step);
   void go_back();
   TimeStep choose_time_step() const;
+  double ground_reach() const;
   void lay_first_cover();
   void wake_cover_near_snow(std::span<const Foot<Dim>> feet);
   void wake_cover_under_air();

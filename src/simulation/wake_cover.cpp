@@ -33,8 +33,8 @@ void Simulation<Dim>::wake_cover_near_snow(std::span<const Foot<Dim>> feet) {
     const auto around = [](const Foot<3>& foot, double reach) {
       return Box<2>{foot.place - Vec<2>::Constant(reach), foot.place + Vec<2>::Constant(reach)};
     };
-    // What lies beyond the ground's reach, where that ends, has no foot, and touches no cover.
-    const auto has_foot = [&](std::size_t i) { return std::abs(feet[i].distance) < walls_.domain.size().norm(); };
+    // What is farther from the ground than it looks has no foot, and touches no cover.
+    const auto has_foot = [&, far = ground_reach()](std::size_t i) { return std::abs(feet[i].distance) < far; };
     const double reach = SleepingCover::reach(flow.spacing, flow.support_radius);
     const bool any = parallel_reduce(
         feet.size(), false,
