@@ -53,7 +53,7 @@ double GroundSurface<Dim>::distance_over(const Cover<Dim>& cover, const Near& ne
 
 template <int Dim>
 GroundSurface<Dim>::GroundSurface(const Walls<Dim>& walls, const MacGrid<Dim>& grid, const Cover<Dim>* cover)
-    : grid_(grid), reach_((cover ? cover->thickness : 0) + 3 * grid.dx), distance_(grid.nodes()) {
+    : grid_(grid), reach_(reach(cover, grid.dx)), distance_(grid.nodes()) {
   look_at(walls, [](const Index<Dim>&) { return true; });
   if (cover) follow(*cover);
 }
@@ -123,8 +123,7 @@ void GroundSurface<Dim>::follow(const Cover<Dim>& cover) {
 
 template <int Dim>
 std::span<const Span> GroundSurface<Dim>::follow(const Cover<Dim>& cover, std::span<const Vec<Dim>> places) {
-  // A node's cover is read up to two bins aside of its foot, and the foot lies up to the reach of near_ aside of it.
-  const double aside = 2 * cover.bin_size + reach_;
+  const double aside = sees_aside(cover, grid_.dx);
   const auto column = [&](double x) {
     return static_cast<int>(
         std::clamp(std::floor((x - grid_.origin[0]) / grid_.dx) - grid_.lower[0], 0.0, grid_.cells[0] - 1.0));

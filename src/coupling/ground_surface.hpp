@@ -30,6 +30,10 @@ class GroundSurface {
   /// Returns the columns of cells along the first axis whose nodes may have moved, apart from each other, ascending.
   std::span<const Span> follow(const Cover<Dim>& cover, std::span<const Vec<Dim>> places);
 
+  /// How far aside of a cell of this edge the cover may count for its nodes [m]: their feet lie up to the reach aside,
+  /// and the height over a foot is read up to two bins aside of it.
+  static double sees_aside(const Cover<Dim>& cover, double dx) { return reach(&cover, dx) + 2 * cover.bin_size; }
+
   std::size_t bytes() const { return distance_.bytes() + spindrift::bytes(near_); }
 
  private:
@@ -40,6 +44,7 @@ class GroundSurface {
     Vec<Dim - 1> place;        ///< of the node's foot on the terrain
     int column;                ///< of the node along the first axis
   };
+  static double reach(const Cover<Dim>* cover, double dx) { return (cover ? cover->thickness : 0) + 3 * dx; }
   double distance_over(const Cover<Dim>& cover, const Near& near) const;
   template <class F>
   void look_at(const Walls<Dim>& walls, F&& is_new);

@@ -89,8 +89,7 @@ void add_snow(Registry& r) {
                        "where no depth is said")
       .plain<&C::sleeping>(
           "sleeping",
-          "on 3D grounds: snow is made where flow or air comes near, not all at the start; the flow is "
-          "the same")
+          "on 3D grounds: snow is made where flow or air comes near, not all at the start; the flow is the same")
       .number<&C::relaxation_steps>("relaxation_steps", "", from(0, 1e5), "of the sampling", "Sec. 4.5");
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "core/parallel.hpp"
 #include "simulation/setup.hpp"
 #include "simulation/simulation.hpp"
@@ -58,8 +60,7 @@ template <int Dim>
 void Simulation<Dim>::wake_cover_under_air() {
   if constexpr (Dim == 3) {
     if (!sleeping_ || !tiles_) return;
-    const Vec<2> aside =
-        Vec<2>::Constant(cover_->thickness + 3 * tiles_->whole().dx + 2 * cover_->bin_size + cover_->spacing);
+    const Vec<2> aside = Vec<2>::Constant(GroundSurface<3>::sees_aside(*cover_, tiles_->whole().dx));
     std::vector<std::uint8_t> called(sleeping_->plots().size());
     tiles_->for_each_marked([&](const Box<3>& box) {
       sleeping_->call({box.lower.template head<2>() - aside, box.upper.template head<2>() + aside}, called);
@@ -73,10 +74,9 @@ template <int Dim>
 void Simulation<Dim>::wake_cover(const std::vector<std::uint8_t>& called) {
   if constexpr (Dim == 3) {
     const auto timed = stages_.time("cover.wake");
-    const double before = cover_mass();
-    if (sleeping_->wake(*cover_, *walls_.terrain->height_field(), called) == 0) return;
-    masses_.laid += cover_mass() - before;
-    if (!ground_) return;
+    const std::size_t n = sleeping_->wake(*cover_, *walls_.terrain->height_field(), called);
+    masses_.laid += static_cast<double>(n) * cover_->density * std::pow(cover_->spacing, 3);
+    if (n == 0 || !ground_) return;
     ground_->follow(*cover_);
     suspension_->set_ground(ground_->node_distance());
   }

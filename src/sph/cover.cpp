@@ -12,13 +12,8 @@ void sort_by_cell(Cover<Dim>& cover) {
   cover.cells = CellList<Dim>(std::max(cover.bin_size, cover.support_radius));
   cover.cells.build(cover.particles);
   cover.cells.release_scratch();
-  const auto reorder = [&](auto& array) {
-    auto sorted = array;
-    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = array[cover.cells.order()[i]];
-    array.swap(sorted);
-  };
-  reorder(cover.foot);
-  reorder(cover.hazard);
+  reorder(cover.foot, cover.cells.order());
+  reorder(cover.hazard, cover.cells.order());
 }
 
 /// The plane through the surface over the bins around `bin`, as its slopes over places [-].

@@ -2,12 +2,21 @@
 /// Particles as a structure of arrays. The dense flow and the cover are two of them.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/memory.hpp"
 #include "core/vec.hpp"
 
 namespace spindrift {
+
+/// array[i] becomes what stood at order[i].
+template <class Array>
+void reorder(Array& array, std::span<const std::uint32_t> order) {
+  Array sorted = array;
+  for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = array[order[i]];
+  array.swap(sorted);
+}
 
 /// State of a set of particles; every array has one entry a particle. Everything that steers the next step is here.
 template <int Dim>

@@ -22,16 +22,11 @@ GroundLayer ground_layer(const CoverLayer& layer, double spacing) {
 void sort_by_id(Cover<3>& cover) {
   std::vector<std::uint32_t> order(cover.particles.size());
   std::iota(order.begin(), order.end(), 0u);
-  const std::vector<std::uint64_t> id = cover.particles.id;
+  const std::vector<std::uint64_t>& id = cover.particles.id;
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
-  const auto reorder = [&](auto& array) {
-    auto sorted = array;
-    for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = array[order[i]];
-    array.swap(sorted);
-  };
-  cover.particles.for_each_array(reorder);
-  reorder(cover.foot);
-  reorder(cover.hazard);
+  cover.particles.for_each_array([&](auto& array) { reorder(array, order); });
+  reorder(cover.foot, order);
+  reorder(cover.hazard, order);
 }
 
 }  // namespace

@@ -77,12 +77,8 @@ void HeightField::for_blocks_around(const Vec<3>& x, double half_edge, F&& f) co
 /// its chord, of length 2 r at most, by curvature r^2 / 2 at most. If the derivative is positive all along, the other
 /// end cannot be nearer.
 bool HeightField::sole(const Vec<3>& x, double above, double r) const {
-  CellBounds b = bounds_.back()[0];
-  bool first = true;
-  for_blocks_around(x, r, [&](std::size_t level, const Index<2>& block) {
-    if (std::exchange(first, false)) b = bounds(level, block);
-    b.include(bounds(level, block));
-  });
+  CellBounds b{.low = INFINITY, .high = -INFINITY};
+  for_blocks_around(x, r, [&](std::size_t level, const Index<2>& block) { b.include(bounds(level, block)); });
   const double chord = r + b.curvature() * r * r / 2, rise = static_cast<double>(b.slope) * std::sqrt(2.0) * r;
   const double below_x = std::min({above + rise, x[2] - static_cast<double>(b.low), chord});
   const double over_x = std::min({rise - above, static_cast<double>(b.high) - x[2], chord});

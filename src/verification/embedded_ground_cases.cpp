@@ -140,8 +140,7 @@ Case cloud_down_slope(std::string name, const Series& refined) {
   what.remark =
       "The gate is one cell. In 2D the ways come together, as 6, 4 and 3 % at 30 degrees, but not as fast as the cells "
       "shrink. After 2 s, in a domain half as wide, they were 1 to 10 % apart and did not come together: by eddies or "
-      "by "
-      "the open sides, which of them was not looked into.";
+      "by the open sides, which of them was not looked into.";
   what.compare = Compare<Dim>(compare_front<Dim>);
   return what;
 }

@@ -115,29 +115,10 @@ TEST_CASE("A step that is taken back lays the same cover again", "[sleeping_cove
 }
 
 TEST_CASE("A mountain side of cover costs what lies near the snow", "[sleeping_cover]") {
-  const std::string wide = R"(schema_version = 1
-[scene]
-dim = 3
-end_time = 1
-[domain]
-lower = [0, 0, -3500]
-upper = [6000, 6000, 100]
-bottom = "open"
-[terrain]
-shape = "plane"
-start = [0, 50]
-angle = "30 deg"
-[dense_flow]
-support_radius = 2
-[release]
-shape = "ball"
-center = [3000, 3000, -1675]
-radius = 5
-[cover]
-depth = 1
-[entrainment]
-)";
-  Simulation<3> simulation(scene_of(wide));
+  Simulation<3> simulation(
+      scene_of(dense_alone, {"domain.lower=[0, 0, -3500]", "domain.upper=[6000, 6000, 100]", "terrain.start=[0, 50]",
+                             "terrain.angle=30 deg", "terrain.side_angle=0", "dense_flow.support_radius=2",
+                             "release.center=[3000, 3000, -1675]", "release.radius=5", "release.velocity=[0, 0, 0]"}));
   for (int n = 0; n < 3; ++n) simulation.step();
   // 36 km^2 would hold 40 million particles of 1 m.
   CHECK(simulation.cover()->particles.size() > 3000);
