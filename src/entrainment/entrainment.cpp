@@ -33,35 +33,42 @@ double disc(double d) {
 template <int Dim>
 struct Surroundings {
   static constexpr std::size_t n_bins = Dim == 2 ? 3 : 9;
-  std::array<std::span<const std::uint32_t>, n_bins> dense{}, cover{};
+  std::array<const Column<Dim>*, n_bins> dense{};
+  std::array<std::span<const std::uint32_t>, n_bins> cover{};
   double lowest = std::numeric_limits<double>::infinity();  ///< normal distance of the lowest dense particle [m]
 
   Surroundings(const GroundBin<Dim>& bin, const Cover<Dim>& all_cover, const Columns<Dim>& columns) {
     std::size_t n = 0;
     for_each_bin_around<Dim>(bin, [&](const GroundBin<Dim>& near) {
       if (const Column<Dim>* column = columns.find(near)) {
-        dense[n] = columns.over_bin(*column);
-        lowest = std::min(lowest, columns.foot[dense[n].front()].distance);
+        dense[n] = column;
+        lowest = std::min(lowest, columns.foot[columns.over_bin(*column).front()].distance);
       }
       cover[n++] = all_cover.slots_in(near);
     });
   }
 };
 
-/// Whether dense snow faster than `least_speed` is near the slot. Normal distance is 1-Lipschitz, so the search up
-/// each column ends where it exceeds the slot's by the radius.
+/// Whether dense snow faster than `least_speed` is near the slot: a column, or what flies over one. (Particles of a
+/// column at rest still jitter, by what gravity gives in a step.) Normal distance is 1-Lipschitz, so the search up each
+/// column ends where it exceeds the slot's by the radius.
 template <int Dim>
 bool in_contact(const Cover<Dim>& cover, std::uint32_t slot, const Surroundings<Dim>& around,
                 const Particles<Dim>& dense, const Columns<Dim>& columns, double least_speed) {
   const double radius = contact_radius * cover.spacing;
   const double highest = cover.foot[slot].distance + radius;
-  for (const auto& column : around.dense)
-    for (const std::uint32_t i : column) {
+  const auto moves = [&](const Vec<Dim>& velocity) { return velocity.squaredNorm() > least_speed * least_speed; };
+  for (const Column<Dim>* column : around.dense) {
+    if (column == nullptr) continue;
+    const bool column_moves = moves(column->velocity);
+    for (std::uint32_t k = column_moves ? column->first : column->end_standing; k < column->end; ++k) {
+      const std::uint32_t i = columns.members[k];
       if (columns.foot[i].distance > highest) break;
-      if (dense.velocity[i].squaredNorm() > least_speed * least_speed &&
+      if ((k < column->end_standing || moves(dense.velocity[i])) &&
           (dense.position[i] - cover.particles.position[slot]).squaredNorm() < radius * radius)
         return true;
     }
+  }
   return false;
 }
 
@@ -88,8 +95,8 @@ struct Entrainment<Dim>::View {
   const Cover<Dim>& cover;
   const Particles<Dim>& dense;
   const Columns<Dim>& columns;
-  const BedFriction& friction;
   const Vec<Dim>& gravity;
+  double dt;
   double viscosity;  ///< eta [Pa s]
 };
 
@@ -121,6 +128,7 @@ void Entrainment<Dim>::find_candidates(Patch& patch, const View& view) {
   const Column<Dim>* column = view.columns.find(patch.bin);
   const Surroundings<Dim> around(patch.bin, cover, view.columns);
   double mass_above = column == nullptr ? 0 : column->mass_per_area * patch.area;
+  const double traction = column == nullptr ? 0 : column->friction.norm() / (patch.area * view.dt);
   bool top = true;
   for (const std::uint32_t slot : cover.slots_in(patch.bin)) {
     if (!cover.alive(slot)) continue;
@@ -133,7 +141,6 @@ void Entrainment<Dim>::find_candidates(Patch& patch, const View& view) {
     if (options_.column == OverburdenColumn::vertical) overburden /= std::max(g_normal / g, least_cos_slope);
     mass_above += cover.particles.mass[slot];
 
-    const double traction = column == nullptr ? 0 : bed_traction(*column, view.friction, normal, view.gravity);
     const double g_tangential = (view.gravity + g_normal * normal).norm();
     const double rate = strain_rate(overburden, g_tangential, view.viscosity, traction, options_.friction_factor);
     if (!(rate > failure_strain_rate(options_.threshold, cover.initial_depth(slot), cover.thickness))) continue;
@@ -189,11 +196,12 @@ void Entrainment<Dim>::draw(const Patch& patch, Cover<Dim>& cover, const Entrain
 
 template <int Dim>
 const Particles<Dim>& Entrainment<Dim>::take(Cover<Dim>& cover, const Particles<Dim>& dense,
-                                             const Columns<Dim>& columns, const BedFriction& friction,
-                                             const Vec<Dim>& gravity, const EntrainmentStep& step) {
+                                             const Columns<Dim>& columns, const Vec<Dim>& gravity,
+                                             const EntrainmentStep& step) {
+  SPINDRIFT_CHECK(step.dt > 0);
   SPINDRIFT_CHECK(columns.foot.size() == dense.size());
   find_patches(cover, columns);
-  const View view{cover, dense, columns, friction, gravity, cover_viscosity(cover.density)};
+  const View view{cover, dense, columns, gravity, step.dt, cover_viscosity(cover.density)};
   parallel_for(
       patches_.size(), [&](std::size_t p) { find_candidates(patches_[p], view); }, 32);
   const bool clock = options_.rule == EntrainmentRule::clock;

@@ -7,7 +7,6 @@
 
 #include "entrainment/shared_traction.hpp"
 #include "entrainment/strain_rate.hpp"
-#include "sph/bed_friction.hpp"
 #include "sph/columns.hpp"
 #include "sph/cover.hpp"
 #include "sph/particles.hpp"
@@ -59,13 +58,13 @@ class Entrainment {
   /// By the Bernoulli rule each goes with probability P_e = Er S dt / m, Eq. (16); S = 2 r or pi r^2.
   /// cover     inout: slots become dead, hazards grow; slots may be renumbered (compact_cover)
   /// dense     in
-  /// columns   in: of these particles in this order; positions up to a step old will do
-  /// friction  in: law of the traction tau_f; mu = xi = 0: none
+  /// columns   in: of these particles in this order, with the friction impulse J of this step, which is the traction
+  ///           tau_f = |J| / (A dt) on the bed; positions up to a step old will do
   /// gravity   g [m s^-2]
   /// Returns the entrained particles by id, at rest, mass and volume kept (R16, R20): to be appended to the dense flow.
   /// Source: paper Sec. 4.4.2, Eqs. (14)-(16).  Departure: R12-R16.
   const Particles<Dim>& take(Cover<Dim>& cover, const Particles<Dim>& dense, const Columns<Dim>& columns,
-                             const BedFriction& friction, const Vec<Dim>& gravity, const EntrainmentStep& step);
+                             const Vec<Dim>& gravity, const EntrainmentStep& step);
 
   /// Of the last take(): sum of m [kg].
   double mass_taken() const { return mass_taken_; }

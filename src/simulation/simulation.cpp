@@ -220,8 +220,7 @@ void Simulation<Dim>::entrain_cover() {
   if (!entrainment_) return;
   const auto timed = stages_.time("entrainment");
   const EntrainmentStep now{time_ + dt_, dt_, scene_.scene.seed, static_cast<std::uint32_t>(n_steps_)};
-  const Particles<Dim>& taken = entrainment_->take(*cover_, dense_->particles, columns_,
-                                                   bed_friction_.value_or(BedFriction{0, 0}), gravity_, now);
+  const Particles<Dim>& taken = entrainment_->take(*cover_, dense_->particles, columns_, gravity_, now);
   if (scene_.entrainment->shared_traction)
     report_.bed_friction += share_traction<Dim>(dense_->particles, columns_, entrainment_->fluxes(), dt_);
   if (taken.empty()) return;

@@ -95,23 +95,11 @@ Vec<Dim> apply_base_friction(Particles<Dim>& dense, Columns<Dim>& columns, const
   });
 }
 
-template <int Dim>
-double bed_traction(const Column<Dim>& column, const BedFriction& friction, const Vec<Dim>& normal,
-                    const Vec<Dim>& gravity) {
-  const double speed_squared = (column.velocity - column.velocity.dot(normal) * normal).squaredNorm();
-  const double g_normal = pressing<Dim>(gravity, normal);
-  if (!(speed_squared > 0) || !(g_normal > 0) || !(column.thickness > 0)) return 0;
-  const double coulomb = friction.mu * column.mass_per_area * g_normal;
-  if (!(friction.xi > 0)) return coulomb;
-  return coulomb + column.mass_per_area / column.thickness * gravity.norm() * speed_squared / friction.xi;
-}
-
 #define INSTANTIATE(Dim)                                                                                            \
   template Vec<Dim> apply_column_friction<Dim>(Particles<Dim>&, Columns<Dim>&, const BedFriction&, const Vec<Dim>&, \
                                                double);                                                             \
   template Vec<Dim> apply_base_friction<Dim>(Particles<Dim>&, Columns<Dim>&, const BedFriction&, const Vec<Dim>&,   \
-                                             std::span<const double>, double);                                      \
-  template double bed_traction<Dim>(const Column<Dim>&, const BedFriction&, const Vec<Dim>&, const Vec<Dim>&);
+                                             std::span<const double>, double);
 INSTANTIATE(2)
 INSTANTIATE(3)
 #undef INSTANTIATE

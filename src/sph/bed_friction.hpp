@@ -42,11 +42,4 @@ template <int Dim>
 Vec<Dim> apply_base_friction(Particles<Dim>& dense, Columns<Dim>& columns, const BedFriction& friction,
                              const Vec<Dim>& gravity, std::span<const double> normal_impulse, double dt);
 
-/// Tangential traction of a moving column on its bed [Pa].
-///   tau_f = mu W g_n + (W / h_flow) |g| v_t^2 / xi,  W the column's mass per area; 0 at rest
-/// normal  of the bed, out of the ground.   Departure: R14.
-template <int Dim>
-double bed_traction(const Column<Dim>& column, const BedFriction& friction, const Vec<Dim>& normal,
-                    const Vec<Dim>& gravity);
-
 }  // namespace spindrift

@@ -45,11 +45,10 @@ std::vector<Trial> ground() {
                            {"terrain.shape=polyline", "terrain.points=[[0, 2], [12, 2]]", "domain.left=closed",
                             "domain.right=closed", "release.at=0", "release.length=12",
                             at<Dim>("release.velocity", 0, 0, 0), "smoke.density=1e-6"}),
-                still);
+                quiet_on_cover);
   on_cover.remark =
-      "the pressure solve leaves particles shaking with 0.1 to 0.2 m/s, which counts as moving snow: friction_strain "
-      "takes the whole Coulomb traction of the column then, and the cover fails. Without friction_strain nothing is "
-      "entrained.";
+      "as the snow settles some cover is entrained. What falls into the pits that it leaves is shot about there with 1 "
+      "to 4 m/s, and takes more: 5 particles in 10 s in 2D, 120 (of 1,433) in 3 s in 3D.";
   return {
       with_look(trial<Dim>("F1", "flat ground, snow at rest", "box",
                            at_rest<Dim>({"terrain.shape=polyline", "terrain.points=[[-1, 0.5], [5, 0.5]]"})),

@@ -199,19 +199,37 @@ TEMPLATE_TEST_CASE_SIG("Friction of the base acts on the basal row, with the sol
           Approx(columns.foot[i].distance < d ? slowed_by_bed(4, 0, g * dt / (1000 * d)) : 4).epsilon(1e-12));
 }
 
-TEMPLATE_TEST_CASE_SIG("Traction of a column on its bed", "[friction]", ((int Dim), Dim), 2, 3) {
-  Column<Dim> column;
-  column.thickness = 2;
-  column.mass_per_area = 600;
-  column.velocity[0] = 20;
-  column.velocity[Dim - 1] = -7;
+TEMPLATE_TEST_CASE_SIG("The impulse that a column gives its bed is its traction, and noise cancels in it", "[friction]",
+                       ((int Dim), Dim), 2, 3) {
+  const Terrain<Dim> terrain({{0, 0}, {20, 0}});
   const BedFriction friction{.mu = 0.2, .xi = 1000};
-  CHECK(bed_traction<Dim>(column, friction, up<Dim>(), down<Dim>()) ==
-        Approx(0.2 * 600 * g + 300 * g * 400 / 1000).epsilon(1e-12));
-  CHECK(bed_traction<Dim>(column, {.mu = 0.2, .xi = 0}, up<Dim>(), down<Dim>()) == Approx(0.2 * 600 * g));
-  CHECK(bed_traction<Dim>(column, friction, Vec<Dim>(-up<Dim>()), down<Dim>()) == 0);
-  column.velocity[0] = 0;
-  CHECK(bed_traction<Dim>(column, friction, up<Dim>(), down<Dim>()) == 0);
+  Particles<Dim> snow =
+      sample_cover<Dim>(terrain, {.from = 4, .to = 8, .y = {0, 2}, .depth = 0.5}, {.spacing = d, .density = 300})
+          .particles;
+  for (Vec<Dim>& v : snow.velocity) v[0] = 20, v[Dim - 1] = -7;
+  StandingColumns<Dim> columns;
+  build_columns<Dim>(columns, terrain, snow, nullptr, d, h);
+  const double dt = 1e-7;
+  apply_column_friction<Dim>(snow, columns, friction, down<Dim>(), dt);
+  for (const Column<Dim>& column : columns.columns) {
+    // tau_f = mu W g + (W / h_flow) g v^2 / xi
+    const double w = column.mass_per_area;
+    CHECK(column.friction.norm() / (column.area * dt) ==
+          Approx(0.2 * w * g + w / column.thickness * g * 400 / 1000).epsilon(1e-6));
+    CHECK(column.friction[0] > 0);
+  }
+  // To and fro by turns: every second particle the other way.
+  for (const Column<Dim>& column : columns.columns) {
+    const auto standing = columns.standing(column);
+    for (std::size_t k = 0; k < standing.size(); ++k) snow.velocity[standing[k]][0] = k % 2 == 0 ? 20 : -20;
+  }
+  apply_column_friction<Dim>(snow, columns, friction, down<Dim>(), dt);
+  for (const Column<Dim>& column : columns.columns) {
+    const auto n = columns.standing(column).size();
+    const double share = static_cast<double>(n % 2) / static_cast<double>(n);
+    const double sliding = column.mass_per_area * (0.2 * g + g * 400 / 1000 / column.thickness);
+    CHECK(column.friction.norm() / (column.area * dt) <= (share + 1e-6) * sliding);
+  }
 }
 
 TEMPLATE_TEST_CASE_SIG("What the snow loses is what the bed gets, the same with any number of threads", "[friction]",
