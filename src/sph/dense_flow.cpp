@@ -75,7 +75,7 @@ void DenseFlow<Dim>::sort(const Walls<Dim>& walls, Stages& stages, double ground
   }
   if (!walls.terrain) return;
   auto timed = stages.time("dense_flow.ground");
-  walls.terrain->find_feet(feet_, particles.position, ground_reach);
+  walls.terrain->find_feet(feet_, particles.position, ground_reach, options_.support_radius);
 }
 
 template <int Dim>

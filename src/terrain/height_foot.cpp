@@ -124,14 +124,21 @@ void HeightField::search(const Vec<3>& x, std::size_t level, const Index<2>& blo
   for (std::size_t k = 0; k < n; ++k) search(x, level - 1, parts[k].number, best);
 }
 
-/// A bound of the squared distance from x to the surface over a cell of the grid: the plane that touches it in the
-/// cell's middle, less what the cell's bend can take off.
+/// A bound of the squared distance from x to the surface over a cell of the grid: from its value and slope in the
+/// cell's middle, and the least that half its second derivative can be (see sole()).
 double HeightField::cell_distance(const Vec<3>& x, const Index<2>& cell) const {
   const CellBounds& b = bounds(0, cell);
   const Candidate middle = candidate(x, corner_ + cell_ * Vec<2>(cell[0] + 0.5, cell[1] + 0.5));
   const Vec<2> gradient = middle.place - x.head<2>() + (middle.jet.z - x[2]) * middle.jet.slope;
-  const double off = std::max(b.high - x[2], x[2] - b.low), bend = std::max(0.0, b.curvature() * off - 1);
-  return middle.squared - cell_ * gradient.lpNorm<1>() - bend * cell_ * cell_ / 2;
+  const double bend = 1 - std::max({0.0, static_cast<double>(b.hollow) * (x[2] - static_cast<double>(b.low)),
+                                    static_cast<double>(b.crest) * (static_cast<double>(b.high) - x[2])});
+  const double half = cell_ / 2;
+  double least = middle.squared;
+  for (int k = 0; k < 2; ++k) {
+    const double g = std::abs(gradient[k]);
+    least -= bend * half > g ? g * g / bend : (2 * g - bend * half) * half;
+  }
+  return least;
 }
 
 void HeightField::search_cell(const Vec<3>& x, const Index<2>& cell, Candidate& best) const {
@@ -150,7 +157,7 @@ void HeightField::search_cell(const Vec<3>& x, const Index<2>& cell, Candidate& 
   if (found.squared < best.squared) best = found;
 }
 
-Foot<3> HeightField::foot(const Vec<3>& x, double reach) const {
+Foot<3> HeightField::foot(const Vec<3>& x, double reach, double certain) const {
   const Candidate below = candidate(x, x.head<2>());
   const double above = x[2] - below.jet.z;
   Foot<3> foot;
@@ -158,10 +165,13 @@ Foot<3> HeightField::foot(const Vec<3>& x, double reach) const {
   if (std::abs(above) >= reach * lipschitz_) return foot;
 
   Candidate best = descend(x, below);
-  const double r = std::sqrt(best.squared), farthest = std::min(r, reach);
-  best.squared = std::min(best.squared, reach * reach);
-  if (!sole(x, above, r))
-    for_blocks_around(x, farthest, [&](std::size_t level, const Index<2>& block) { search(x, level, block, best); });
+  const double r = std::sqrt(best.squared), nearest = std::min({r, reach, certain});
+  if (r > nearest || !sole(x, above, r)) {
+    Candidate nearer = best;
+    nearer.squared = nearest * nearest;
+    for_blocks_around(x, nearest, [&](std::size_t level, const Index<2>& block) { search(x, level, block, nearer); });
+    if (nearer.squared < nearest * nearest) best = nearer;
+  }
   if (best.squared >= reach * reach) return foot;
 
   foot.normal = normal_of(best.jet);

@@ -24,21 +24,23 @@ Vec<Dim> lifted(const Vec<2>& v, double y) {
 }  // namespace
 
 template <int Dim>
-Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& x, double reach) const {
+Foot<Dim> Terrain<Dim>::foot(const Vec<Dim>& x, double reach, double certain) const {
   if constexpr (Dim == 2) {
     return profile()->foot(x, reach);
   } else {
-    if (const HeightField* field = height_field()) return field->foot(x, reach);
+    if (const HeightField* field = height_field()) return field->foot(x, reach, certain);
     const Foot<2> at = profile()->foot(in_profile(x), reach);
     return {at.distance, lifted<Dim>(at.normal, 0), {at.place[0], x[1]}};
   }
 }
 
 template <int Dim>
-void Terrain<Dim>::find_feet(std::vector<Foot<Dim>>& feet, std::span<const Vec<Dim>> positions, double reach) const {
+void Terrain<Dim>::find_feet(std::vector<Foot<Dim>>& feet, std::span<const Vec<Dim>> positions, double reach,
+                             double certain) const {
   feet.resize(positions.size());
-  parallel_for(positions.size(),
-               [&](std::size_t i) { feet[i] = positions[i].allFinite() ? foot(positions[i], reach) : nowhere<Dim>; });
+  parallel_for(positions.size(), [&](std::size_t i) {
+    feet[i] = positions[i].allFinite() ? foot(positions[i], reach, certain) : nowhere<Dim>;
+  });
 }
 
 template <int Dim>

@@ -24,12 +24,15 @@ class Terrain {
   explicit Terrain(HeightField field) requires(Dim == 3) : shape_(std::move(field)) {}
 
   /// The nearest point of the surface; where it is farther than `reach` [m] only the distance's sign is right, and it
-  /// is `reach` or more.
-  Foot<Dim> foot(const Vec<Dim>& x, double reach = std::numeric_limits<double>::infinity()) const;
+  /// is `reach` or more. On a height field, where it is `certain` [m] or farther off, another one may be nearer, but none
+  /// is nearer than that (HeightField::foot()).
+  Foot<Dim> foot(const Vec<Dim>& x, double reach = std::numeric_limits<double>::infinity(),
+                 double certain = std::numeric_limits<double>::infinity()) const;
 
   /// The foot of every position into `feet`. A position that is not finite counts as infinitely far above the ground.
   void find_feet(std::vector<Foot<Dim>>& feet, std::span<const Vec<Dim>> positions,
-                 double reach = std::numeric_limits<double>::infinity()) const;
+                 double reach = std::numeric_limits<double>::infinity(),
+                 double certain = std::numeric_limits<double>::infinity()) const;
 
   /// The position at `place` and normal distance `distance` from the surface: the inverse of foot() where the surface
   /// is smooth.
