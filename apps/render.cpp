@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 struct RenderArguments {
   std::string folder, output, camera, sun, size;
   std::optional<double> azimuth, elevation, zoom, opaque_smoke;
+  bool close = false;
   FrameChoice frames;
   int threads = 0;
 };
@@ -126,6 +128,7 @@ Draw draw_flat(const RenderArguments& arguments, const Scene& scene) {
                                                   {"--azimuth", arguments.azimuth.has_value()},
                                                   {"--elevation", arguments.elevation.has_value()},
                                                   {"--zoom", arguments.zoom.has_value()},
+                                                  {"--close", arguments.close},
                                                   {"--sun", !arguments.sun.empty()}};
   for (const auto& [option, given] : useless)
     if (given)
@@ -142,8 +145,33 @@ Draw draw_flat(const RenderArguments& arguments, const Scene& scene) {
   };
 }
 
-Draw draw_deep(const RenderArguments& arguments, const Scene& scene) {
-  const auto scenery = std::make_shared<Scenery>(scene, view_of(arguments, scene));
+/// Where the dense flow of the chosen frames is, as seen from above, in the solver's coordinates.
+Box<2> part_with_snow(const RenderArguments& arguments, const std::map<std::uint64_t, FramePaths>& frames,
+                      const Scene& scene) {
+  constexpr double nothing = std::numeric_limits<double>::infinity();
+  Box<2> part{Vec<2>::Constant(nothing), Vec<2>::Constant(-nothing)};
+  for (const auto& [number, paths] : frames) {
+    if (paths.particles.empty()) continue;
+    const StoredFrame stored = read_frame_file(paths.particles);
+    const StoredFile file{stored, paths.particles};
+    const PictureFrame frame = picture_frame(&file, nullptr, scene.origin);
+    for (std::size_t i = 0; i < frame.layer.size(); ++i) {
+      if (frame.layer[i] != 0) continue;
+      const Vec<2> x(static_cast<double>(frame.positions[3 * i]), static_cast<double>(frame.positions[3 * i + 1]));
+      part = {part.lower.cwiseMin(x), part.upper.cwiseMax(x)};
+    }
+  }
+  if (!(part.lower[0] <= part.upper[0]))
+    throw Error(ExitCode::bad_input,
+                fmt::format("--close: {}: the frames hold no dense flow, expected some to look at", arguments.folder));
+  return part;
+}
+
+Draw draw_deep(const RenderArguments& arguments, const Scene& scene,
+               const std::map<std::uint64_t, FramePaths>& frames) {
+  View view = view_of(arguments, scene);
+  if (arguments.close) view.part = part_with_snow(arguments, frames, scene);
+  const auto scenery = std::make_shared<Scenery>(scene, view);
   return [scenery](const PictureFrame& stored) { return scenery->png(stored); };
 }
 
@@ -168,7 +196,7 @@ ExitCode render(const RenderArguments& arguments) {
   Scene scene = around_local_origin(read_scene(fs::path(arguments.folder) / "scene.toml"));
   if (arguments.opaque_smoke) scene.output.opaque_smoke = *arguments.opaque_smoke;
   const ThreadLimit threads(arguments.threads);
-  const Draw draw = scene.scene.dim == 3 ? draw_deep(arguments, scene) : draw_flat(arguments, scene);
+  const Draw draw = scene.scene.dim == 3 ? draw_deep(arguments, scene, frames) : draw_flat(arguments, scene);
 
   const fs::path out = arguments.output.empty() ? fs::path(arguments.folder) / "render" : fs::path(arguments.output);
   make_folder(out);
@@ -223,6 +251,11 @@ void add_render(CLI::App& app, Command& chosen) {
   command->add_option("--zoom", arguments->zoom, "2: from half the distance, onto the ground's middle")
       ->check(CLI::Range(1e-3, 1e3))
       ->type_name("FACTOR")
+      ->excludes(camera);
+  command
+      ->add_flag(
+          "--close", arguments->close,
+          "from so near that the flowing snow of the chosen frames fills the picture, in place of all the ground")
       ->excludes(camera);
   command->add_option("--sun", arguments->sun, "where the sun stands, in degrees (default: left of the camera)")
       ->type_name("AZIMUTH,ELEVATION");

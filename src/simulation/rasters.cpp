@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/memory.hpp"
 #include "core/parallel.hpp"
@@ -65,9 +66,12 @@ void Rasters::follow(const Simulation<3>& simulation) {
 double Rasters::sum_up(const Simulation<3>& simulation) {
   const Particles<3>& p = simulation.dense()->particles;
   const Terrain<3>& terrain = *simulation.walls().terrain;
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const double certain = simulation.dense()->options().support_radius;  // as the flow itself sees the ground
   places_.resize(p.size());
-  parallel_for(p.size(),
-               [&](std::size_t i) { places_[i] = seen_from_above(terrain.foot(p.position[i]), p.position[i]); });
+  parallel_for(p.size(), [&](std::size_t i) {
+    places_[i] = seen_from_above(terrain.foot(p.position[i], anywhere, certain), p.position[i]);
+  });
   for (const std::uint32_t block : touched_) sums_[block] = {};
   touched_.clear();
   double fastest = 0;

@@ -44,13 +44,15 @@ double downhill(std::span<const Vec<3>> ground, const Compass& compass) {
   return compass.azimuth_of(-slope[0] * compass.east - slope[1] * compass.north);
 }
 
-/// Ground within the domain, on a coarse grid.
-std::vector<Vec<3>> ground_points(const Relief& ground, const Box<3>& domain) {
+/// Ground within a part of the plan, on a coarse grid.
+std::vector<Vec<3>> ground_points(const Relief& ground, const Box<2>& part) {
   std::vector<Vec<3>> points;
-  const Index<2> step{std::max(1, ground.shape[0] / 32), std::max(1, ground.shape[1] / 32)};
+  Index<2> step;
+  for (int k = 0; k < 2; ++k)
+    step[k] = std::clamp(static_cast<int>(part.size()[k] / ground.spacing / 16), 1, std::max(1, ground.shape[k] / 32));
   for (int j = 0; j < ground.shape[1]; j += step[1])
     for (int i = 0; i < ground.shape[0]; i += step[0]) {
-      const Vec<2> place = ground.place({i, j}).cwiseMax(domain.lower.head<2>()).cwiseMin(domain.upper.head<2>());
+      const Vec<2> place = ground.place({i, j}).cwiseMax(part.lower).cwiseMin(part.upper);
       if ((place - ground.place({i, j})).norm() > std::max(step[0], step[1]) * ground.spacing) continue;
       const float z = ground.height[flat<2>({i, j}, ground.shape)];
       if (std::isfinite(z)) points.emplace_back(place[0], place[1], static_cast<double>(z));
@@ -107,8 +109,16 @@ void Scenery::fill_ground(const Scene& scene) {
   });
 }
 
+/// The part of the domain's plan that the picture is about.
+Box<2> Scenery::looked_at(const View& view) const {
+  const Box<2> all{domain_.lower.head<2>(), domain_.upper.head<2>()};
+  if (!view.part) return all;
+  return {view.part->lower.cwiseMax(all.lower).cwiseMin(all.upper),
+          view.part->upper.cwiseMax(all.lower).cwiseMin(all.upper)};
+}
+
 void Scenery::place_camera(const Compass& compass, const View& view) {
-  std::vector<Vec<3>> ground = ground_.empty() ? std::vector<Vec<3>>{} : ground_points(ground_, domain_);
+  std::vector<Vec<3>> ground = ground_.empty() ? std::vector<Vec<3>>{} : ground_points(ground_, looked_at(view));
   const bool none = ground.empty();
   if (none)
     for (int corner = 0; corner < 8; ++corner) {

@@ -26,12 +26,12 @@ class HeightField {
   explicit HeightField(const HeightGrid& grid);
 
   /// The nearest point of the surface, to about 1e-10 m, where that is nearer than `certain` [m]; farther off, the one
-  /// to which Newton's method comes from straight above or below (it is `certain` or farther, and the way to it is normal
-  /// to the surface, but another one may be nearer). Where it is farther than `reach` [m] only the distance's sign is
-  /// right, and it is `reach` or more.
-  /// Newton's method on the squared distance, from straight above or below; it ends in the nearest point of all where
-  /// bounds of height and curvature show that there is but one. Elsewhere the cells that may be nearer are searched
-  /// through a pyramid of bounds, each from its nearest of 3 x 3 places. Cost near the ground: four evaluations.
+  /// to which Newton's method comes from straight above or below (it is `certain` or farther, and the way to it is
+  /// normal to the surface, but another one may be nearer). Where it is farther than `reach` [m] only the distance's
+  /// sign is right, and it is `reach` or more. Newton's method on the squared distance, from straight above or below;
+  /// it ends in the nearest point of all where bounds of height and curvature show that there is but one. Elsewhere the
+  /// cells that may be nearer are searched through a pyramid of bounds, each from its nearest of 3 x 3 places. Cost
+  /// near the ground: four evaluations.
   Foot<3> foot(const Vec<3>& x, double reach = std::numeric_limits<double>::infinity(),
                double certain = std::numeric_limits<double>::infinity()) const;
 

@@ -24,8 +24,8 @@ class Terrain {
   explicit Terrain(HeightField field) requires(Dim == 3) : shape_(std::move(field)) {}
 
   /// The nearest point of the surface; where it is farther than `reach` [m] only the distance's sign is right, and it
-  /// is `reach` or more. On a height field, where it is `certain` [m] or farther off, another one may be nearer, but none
-  /// is nearer than that (HeightField::foot()).
+  /// is `reach` or more. On a height field, where it is `certain` [m] or farther off, another one may be nearer, but
+  /// none is nearer than that (HeightField::foot()).
   Foot<Dim> foot(const Vec<Dim>& x, double reach = std::numeric_limits<double>::infinity(),
                  double certain = std::numeric_limits<double>::infinity()) const;
 

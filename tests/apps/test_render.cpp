@@ -69,7 +69,7 @@ TEST_CASE("camera and light of a picture can be chosen", "[render]") {
   const DrawnRun place(deep);
   const std::string usual = text_of(place.folder() / "r/preview/000002.png");
   for (const std::string words : {"--camera 100,20,15", "--camera=-60,20,15", "--azimuth 0", "--elevation 80",
-                                  "--zoom 2", "--sun 90,10", "--opaque-smoke 1e-4"}) {
+                                  "--zoom 2", "--close", "--sun 90,10", "--opaque-smoke 1e-4"}) {
     CAPTURE(words);
     REQUIRE(place.spindrift("render r --frame 2 -o other " + words).code == 0);
     CHECK(text_of(place.folder() / "other/000002.png") != usual);
@@ -84,7 +84,8 @@ TEST_CASE("render draws 2D runs as their previews are", "[render]") {
   CHECK(size_of(place.folder() / "r/render/000001.png") == size_of(place.folder() / "r/preview/000001.png"));
   CHECK(place.spindrift("render r --frame 0 --size 400x140 -o small").code == 0);
   CHECK(size_of(place.folder() / "small/000000.png") == "200x140");  // the domain is 20 m x 14 m
-  const std::string option = GENERATE("--camera 1,2,3", "--azimuth 1", "--elevation 1", "--zoom 2", "--sun 1,2");
+  const std::string option =
+      GENERATE("--camera 1,2,3", "--azimuth 1", "--elevation 1", "--zoom 2", "--close", "--sun 1,2");
   const Outcome outcome = place.spindrift("render r " + option);
   CHECK(outcome.code == 2);
   CHECK(outcome.err == option.substr(0, option.find(' ')) + ": r is a 2D run, which is drawn from the side\n");
@@ -107,7 +108,8 @@ TEST_CASE("what cannot be drawn is told with what was expected, and nothing is w
       Row{"r --camera 1,2,nan", "--camera: got"}, Row{"r --camera 1,2,3,", "--camera: got"},
       Row{"r --camera 1,91,3", "--camera: got 91, expected -90 to 90 degrees of elevation"},
       Row{"r --camera 1,2,0", "--camera: got 0, expected 0.001 to 1e+09 m of distance"},
-      Row{"r --camera 1,2,3 --azimuth 4", "--camera excludes"}, Row{"r --sun 100", "--sun: got \"100\", expected"},
+      Row{"r --camera 1,2,3 --azimuth 4", "--camera excludes"}, Row{"r --camera 1,2,3 --close", "--camera excludes"},
+      Row{"r --sun 100", "--sun: got \"100\", expected"},
       Row{"r --sun 100,-1", "--sun: got -1, expected 0 to 90 degrees of elevation"}, Row{"r --zoom 0", "--zoom: "},
       Row{"r --every 0", "--every: "}, Row{"r --elevation 91", "--elevation: "},
       Row{"r --every 2 --frame 1", "--every excludes"});
@@ -156,4 +158,8 @@ TEST_CASE("a run without frames cannot be drawn, one with a single layer can", "
   REQUIRE(place.run("run a.toml -o r --quiet --no-preview --set output.particles=false --until 0.05").code == 0);
   CHECK(place.run("render r --size 160x90").code == 0);
   CHECK(size_of(place.folder() / "r/render/000000.png") == "160x90");
+  const Outcome close = place.run("render r --close -o close");
+  CHECK(close.code == 2);
+  CHECK(close.err == "--close: r: the frames hold no dense flow, expected some to look at\n");
+  CHECK_FALSE(fs::exists(place.folder() / "close"));
 }

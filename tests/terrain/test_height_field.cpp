@@ -115,6 +115,34 @@ TEST_CASE("No place of the ground is nearer than the foot", "[height_field]") {
   }
 }
 
+TEST_CASE("A foot that is certain up to a distance is the nearest one below it, and stationary beyond",
+          "[height_field]") {
+  const HeightField ground(sampled(rough, {-20, -20}, 0.5, {81, 81}));
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> over(-12, 12), off(-4, 10);
+  int another = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec<2> place(over(random), over(random));
+    const Vec<3> x(place[0], place[1], ground.height(place) + off(random));
+    const Foot<3> nearest = ground.foot(x);
+    for (const double certain : {0.1, 1.0, 2.5}) {
+      const Foot<3> foot = ground.foot(x, anywhere, certain);
+      CAPTURE(x.transpose(), certain, nearest.distance, foot.distance);
+      if (std::abs(nearest.distance) < certain - 1e-9) {
+        REQUIRE(foot.distance == Approx(nearest.distance).margin(1e-10));
+        REQUIRE((foot.place - nearest.place).norm() < 1e-6);
+        continue;
+      }
+      REQUIRE(std::abs(foot.distance) >= std::abs(nearest.distance) - 1e-10);
+      REQUIRE(std::signbit(foot.distance) == std::signbit(nearest.distance));
+      REQUIRE((ground.position(foot.place, foot.distance) - x).norm() < 1e-8);
+      another += std::abs(foot.distance) > std::abs(nearest.distance) + 1e-6;
+    }
+  }
+  CHECK(another > 100);  // else the case shows nothing
+}
+
 TEST_CASE("Heights and normals converge: third and second order", "[height_field]") {
   const auto errors = [](double cell) {
     const int n = static_cast<int>(std::lround(10 / cell)) + 1;
