@@ -109,16 +109,9 @@ void Scenery::fill_ground(const Scene& scene) {
   });
 }
 
-/// The part of the domain's plan that the picture is about.
-Box<2> Scenery::looked_at(const View& view) const {
-  const Box<2> all{domain_.lower.head<2>(), domain_.upper.head<2>()};
-  if (!view.part) return all;
-  return {view.part->lower.cwiseMax(all.lower).cwiseMin(all.upper),
-          view.part->upper.cwiseMax(all.lower).cwiseMin(all.upper)};
-}
-
 void Scenery::place_camera(const Compass& compass, const View& view) {
-  std::vector<Vec<3>> ground = ground_.empty() ? std::vector<Vec<3>>{} : ground_points(ground_, looked_at(view));
+  const Box<2> part = view.part.value_or(Box<2>{domain_.lower.head<2>(), domain_.upper.head<2>()});
+  std::vector<Vec<3>> ground = ground_.empty() ? std::vector<Vec<3>>{} : ground_points(ground_, part);
   const bool none = ground.empty();
   if (none)
     for (int corner = 0; corner < 8; ++corner) {

@@ -13,7 +13,7 @@ namespace spindrift {
 
 /// How a picture is to look; what is left empty is chosen so that the whole ground is seen, or the given part of it.
 struct View {
-  std::optional<Box<2>> part;                        ///< of the ground, as seen from above, to look at [m]
+  std::optional<Box<2>> part;                        ///< of the domain, as seen from above, to look at [m]
   std::optional<double> azimuth, elevation;          ///< of the camera as seen from the ground's middle [rad]
   std::optional<double> distance;                    ///< from the ground's middle [m]
   double zoom = 1;                                   ///< 2: half the distance
@@ -41,7 +41,6 @@ class Scenery {
  private:
   void fill_ground(const Scene& scene);
   void place_camera(const Compass& compass, const View& view);
-  Box<2> looked_at(const View& view) const;
 
   Box<3> domain_;
   Relief ground_;  ///< bare
