@@ -26,11 +26,11 @@ bool same_place(OGRSpatialReferenceH a, OGRSpatialReferenceH b, double x, double
 
 }  // namespace
 
-bool same_coordinates(const std::filesystem::path& polygons, const std::filesystem::path& model) {
+bool same_coordinates(const std::filesystem::path& shapes, const std::filesystem::path& model) {
   const QuietGdal quiet;
-  const GdalData shapes = open_for_reading(polygons, GDAL_OF_VECTOR), heights = open_for_reading(model, GDAL_OF_RASTER);
-  if (!shapes || !heights || GDALDatasetGetLayerCount(shapes.get()) == 0) return true;
-  const OGRSpatialReferenceH of_shapes = OGR_L_GetSpatialRef(GDALDatasetGetLayer(shapes.get(), 0));
+  const GdalData map = open_for_reading(shapes, GDAL_OF_VECTOR), heights = open_for_reading(model, GDAL_OF_RASTER);
+  if (!map || !heights || GDALDatasetGetLayerCount(map.get()) == 0) return true;
+  const OGRSpatialReferenceH of_shapes = OGR_L_GetSpatialRef(GDALDatasetGetLayer(map.get(), 0));
   const OGRSpatialReferenceH of_heights = GDALGetSpatialRef(heights.get());
   if (of_shapes == nullptr || of_heights == nullptr || OSRIsSame(of_shapes, of_heights) != 0) return true;
   // What is no projection is the mark of a file without one: GeoJSON always claims degrees.

@@ -7,7 +7,8 @@ namespace spindrift::gdal {
 
 ElevationGrid read_raster(const std::filesystem::path& file);
 std::vector<MapPolygon> read_polygons(const std::filesystem::path& file);
-bool same_coordinates(const std::filesystem::path& polygons, const std::filesystem::path& model);
+MapLine read_line(const std::filesystem::path& file);
+bool same_coordinates(const std::filesystem::path& shapes, const std::filesystem::path& model);
 std::vector<std::byte> geotiff_bytes(const ElevationGrid& grid);
 
 }  // namespace spindrift::gdal

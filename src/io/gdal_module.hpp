@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/esri_grid.hpp"
+#include "io/map_line.hpp"
 #include "io/map_polygons.hpp"
 #include "io/module.hpp"
 
@@ -17,7 +18,8 @@ struct GdalModule {
 
   ElevationGrid (*read_raster)(const std::filesystem::path& file);              ///< read_elevation_model
   std::vector<MapPolygon> (*read_polygons)(const std::filesystem::path& file);  ///< read_map_polygons
-  bool (*same_coordinates)(const std::filesystem::path& polygons, const std::filesystem::path& model);
+  MapLine (*read_line)(const std::filesystem::path& file);                      ///< read_map_line
+  bool (*same_coordinates)(const std::filesystem::path& shapes, const std::filesystem::path& model);
   std::vector<std::byte> (*geotiff_bytes)(const ElevationGrid& grid);
 };
 

@@ -12,8 +12,8 @@ bool same_coordinates(const std::filesystem::path&, const std::filesystem::path&
 
 #else
 
-bool same_coordinates(const std::filesystem::path& polygons, const std::filesystem::path& model) {
-  return load_module<GdalModule>(polygons.string()).same_coordinates(polygons, model);
+bool same_coordinates(const std::filesystem::path& shapes, const std::filesystem::path& model) {
+  return load_module<GdalModule>(shapes.string()).same_coordinates(shapes, model);
 }
 
 #endif

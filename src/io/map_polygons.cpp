@@ -51,6 +51,12 @@ double MapPolygon::area() const {
   return sum;
 }
 
+MapFileError no_map_files(const std::filesystem::path& file) {
+  return MapFileError(
+      fmt::format("{}: this build reads no shapefiles or GeoJSON; install libgdal-dev, then configure and build again",
+                  file.string()));
+}
+
 #ifndef SPINDRIFT_GDAL
 
 bool reads_map_files() {
@@ -58,9 +64,7 @@ bool reads_map_files() {
 }
 
 std::vector<MapPolygon> read_map_polygons(const std::filesystem::path& file) {
-  throw MapFileError(
-      fmt::format("{}: this build reads no shapefiles or GeoJSON; install libgdal-dev, then configure and build again",
-                  file.string()));
+  throw no_map_files(file);
 }
 
 #else

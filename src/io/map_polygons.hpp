@@ -32,6 +32,8 @@ struct MapPolygon {
 
 /// Whether this build reads shapefiles, GeoJSON and whatever else GDAL knows.
 bool reads_map_files();
+/// What is told where it does not.
+MapFileError no_map_files(const std::filesystem::path& file);
 
 /// The polygons of the first layer of a shapefile, a GeoJSON file or another that GDAL reads, in the file's order;
 /// multipolygons are taken apart.

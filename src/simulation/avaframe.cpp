@@ -60,7 +60,11 @@ AvaframeFolder find_avaframe(const fs::path& folder) {
     for (const fs::path& model : models) names.push_back(model.lexically_relative(folder).string());
     refuse(fmt::format("{} elevation models, {}, expected one", models.size(), fmt::join(names, ", ")));
   }
-  AvaframeFolder found{models[0], files_in(folder, "REL", {".shp"}), files_in(folder, "ENT", {".shp"})};
+  AvaframeFolder found{models[0], files_in(folder, "REL", {".shp"}), files_in(folder, "ENT", {".shp"}),
+                       files_in(folder, "LINES", {".shp"})};
+  // Split points and other lines stand in the same folder.
+  std::erase_if(found.paths,
+                [](const fs::path& file) { return file.stem().string().find("aimec") == std::string::npos; });
   if (found.release.empty()) refuse("no areas of release, a .shp in REL/ or Inputs/REL/; " + listing(folder));
   return found;
 }

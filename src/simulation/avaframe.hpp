@@ -16,6 +16,8 @@ struct AvaframeFolder {
   std::filesystem::path elevation;             ///< the one .asc or .tif in it or in Inputs/
   std::vector<std::filesystem::path> release;  ///< shapefiles of REL/ or Inputs/REL/, by name
   std::vector<std::filesystem::path> cover;    ///< of ENT/ or Inputs/ENT/; there may be none
+  std::vector<std::filesystem::path>
+      paths;  ///< of LINES/ or Inputs/LINES/, with "aimec" in the name; there may be none
 };
 
 /// Looks into `folder`; opens none of its files.

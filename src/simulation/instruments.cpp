@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.hpp"
+
 namespace spindrift {
 namespace {
 
@@ -30,14 +32,14 @@ Vec<Dim> highest(const Particles<Dim>& p) {
                            [](const Vec<Dim>& a, const Vec<Dim>& b) { return a[up_axis<Dim>] < b[up_axis<Dim>]; });
 }
 
-/// Area of the ground, in bins of two spacings, under the particles that `counts` accepts [m^2].
+/// Area of the ground, in bins of two spacings, under the particles whose numbers `counts` accepts [m^2].
 template <int Dim, class F>
 double ground_under(const Simulation<Dim>& simulation, F&& counts) {
   const Particles<Dim>& p = simulation.dense()->particles;
   const double size = 2 * simulation.dense()->options().spacing;
   std::vector<GroundBin<Dim>> bins;
-  for (const Vec<Dim>& x : p.position)
-    if (counts(x)) bins.push_back(ground_bin<Dim>(x.template head<Dim - 1>(), size));
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (counts(i)) bins.push_back(ground_bin<Dim>(p.position[i].template head<Dim - 1>(), size));
   std::sort(bins.begin(), bins.end());
   bins.erase(std::unique(bins.begin(), bins.end()), bins.end());
   double area = 0;
@@ -75,8 +77,22 @@ void for_each_cloud_top(const Suspension<Dim>& suspension, F&& f) {
 template <int Dim>
 double Instruments<Dim>::way(const Walls<Dim>& walls, const Vec<Dim>& x) const {
   if (!walls.terrain) return x[0];
-  if (middle_) return (x - *middle_).norm();
-  return walls.terrain->foot(x).place[0];
+  if (!walls.terrain->height_field()) return walls.terrain->foot(x).place[0];
+  return path_ ? path_->along(x.template head<2>()) : (x - *middle_).norm();
+}
+
+template <int Dim>
+void Instruments<Dim>::prepare(const Simulation<Dim>& simulation) {
+  const Particles<Dim>& p = simulation.dense()->particles;
+  if (!top_) top_ = highest(p);
+  if constexpr (Dim == 3) {
+    const Box<3>& domain = simulation.walls().domain;
+    const auto& terrain = simulation.walls().terrain;
+    if (!terrain || !terrain->height_field()) return;
+    if (!middle_) middle_ = middle_of_mass(p);
+    if (const auto& path = simulation.scene().path; path && !path_)
+      path_.emplace(path->points, *terrain->height_field(), Box<2>{domain.lower.head<2>(), domain.upper.head<2>()});
+  }
 }
 
 template <int Dim>
@@ -87,11 +103,11 @@ void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
 
   if (simulation.dense() && !simulation.dense()->particles.empty()) {
     const Particles<Dim>& p = simulation.dense()->particles;
-    const bool on_field = terrain && terrain->height_field();
-    if (!top_) top_ = highest(p);
-    if (on_field && !middle_) middle_ = middle_of_mass(p);
+    prepare(simulation);
+    std::vector<double> ways(p.size());
+    parallel_for(p.size(), [&](std::size_t i) { ways[i] = way(simulation.walls(), p.position[i]); });
     std::vector<MassAt> masses(p.size());
-    for (std::size_t i = 0; i < p.size(); ++i) masses[i] = {way(simulation.walls(), p.position[i]), p.mass[i]};
+    for (std::size_t i = 0; i < p.size(); ++i) masses[i] = {ways[i], p.mass[i]};
     std::sort(masses.begin(), masses.end(), [](const MassAt& a, const MassAt& b) { return a.along < b.along; });
     front = percentile(masses, front_share);
     samples_.push_back({simulation.time(), front});
@@ -107,8 +123,7 @@ void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
       if (in_head(m.along)) head_mass += m.mass;
     const double width = Dim == 3 ? simulation.walls().domain.size()[1] : 1;
     const double area =
-        on_field ? ground_under(simulation, [&](const Vec<Dim>& x) { return in_head(way(simulation.walls(), x)); })
-                 : head_length * width;
+        middle_ ? ground_under(simulation, [&](std::size_t i) { return in_head(ways[i]); }) : head_length * width;
     head_depth = head_mass / simulation.dense()->options().density / area;
   }
 
@@ -121,7 +136,7 @@ void Instruments<Dim>::follow(const Simulation<Dim>& simulation) {
       }
       const Foot<Dim> foot = terrain->foot(x);
       cloud_height = std::max(cloud_height, foot.distance);
-      const double along = middle_ ? (x - foot.distance * foot.normal - *middle_).norm() : foot.place[0];
+      const double along = middle_ ? way(simulation.walls(), x - foot.distance * foot.normal) : foot.place[0];
       if (std::abs(along - front) < head_length) head_cloud = std::max(head_cloud, foot.distance);
     });
     cloud_height_max = std::max(cloud_height_max, cloud_height);

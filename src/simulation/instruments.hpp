@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 
+#include "simulation/avalanche_path.hpp"
 #include "simulation/simulation.hpp"
 
 namespace spindrift {
@@ -24,8 +25,8 @@ struct Instruments {
   static constexpr double sample_interval = 0.1;  ///< [s]
   static constexpr double speed_window = 0.5;     ///< over which the front's speed is taken [s]
 
-  /// 99th mass percentile of the dense flow's way [m]: along the ground's profile; on a height field straight from the
-  /// middle of the snow as it was first seen; without ground x.
+  /// 99th mass percentile of the dense flow's way [m]: along the ground's profile; on a height field along the scene's
+  /// [path], or straight from the middle of the snow as it was first seen; without ground x.
   double front = 0;
   double front_speed = 0;       ///< over the last window [m s^-1]
   double front_speed_max = 0;   ///< [m s^-1]
@@ -46,7 +47,9 @@ struct Instruments {
     double time, front;
   };
   double way(const Walls<Dim>& walls, const Vec<Dim>& x) const;
+  void prepare(const Simulation<Dim>& simulation);
 
+  std::optional<AvalanchePath> path_;
   std::optional<Vec<Dim>> middle_;  ///< of the snow as it was first seen on a height field
   std::optional<Vec<Dim>> top_;     ///< highest snow as it was first seen
   std::deque<Sample> samples_;

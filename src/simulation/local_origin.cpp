@@ -50,6 +50,7 @@ Scene around_local_origin(Scene scene) {
     move(smoke.lower), move(smoke.upper), move(smoke.center);
     move_points(smoke.points, false);
   }
+  if (scene.path) move_points(scene.path->points, true);
   for (PylonSection& pylon : scene.pylon) move(pylon.position);
   return scene;
 }

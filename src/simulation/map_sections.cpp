@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/map_coordinates.hpp"
-#include "io/map_polygons.hpp"
+#include "io/map_line.hpp"
 #include "simulation/outline_checks.hpp"
 #include "simulation/registry.hpp"
 #include "simulation/units.hpp"
@@ -35,6 +35,7 @@ class MapReader {
         });
     expand(scene_.obstacle, "obstacle", {}, [](auto&&...) { return true; });
     if (scene_.cover) cover(*scene_.cover);
+    path();
   }
 
  private:
@@ -124,6 +125,39 @@ class MapReader {
     if (!files.empty()) places_["cover.areas"] = place_;
   }
 
+  /// The line of path.file, or of an AvaFrame folder where the scene tells none.
+  void path() {
+    if (scene_.path && !scene_.path->file.empty()) {
+      name("path.file");
+      const fs::path file = folder_ / std::exchange(scene_.path->file, {});
+      if (!alone("path.points") || !read_path(file)) report_.suspect("path.points");
+    } else if (!found_.paths.empty() && !places_.contains("path.points")) {
+      name(std::string(of_folder));
+      if (found_.paths.size() > 1)
+        add(fmt::format("has several lines of the path, {} and {}: say path.file", found_.paths[0].string(),
+                        found_.paths[1].string()));
+      else if (read_path(found_.paths[0]))
+        return;
+      report_.suspect("path.points");
+    }
+  }
+
+  bool read_path(const fs::path& file) {
+    MapLine line;
+    try {
+      line = read_map_line(file);
+    } catch (const MapFileError& error) {
+      return add(error.what()), false;
+    }
+    if (!in_same_system(file)) return false;
+    if (const std::string wrong = off_the_domain(line); !wrong.empty())
+      return add(fmt::format("{}: {}", file.string(), wrong)), false;
+    if (!scene_.path) scene_.path.emplace();
+    scene_.path->points = std::move(line);
+    places_["path.points"] = place_;
+    return true;
+  }
+
   bool good_thickness(const MapPolygon& polygon, const std::string& who, const std::string& key) {
     if (!polygon.thickness) {
       add(fmt::format("{}: has no thickness, expected metres in its field \"thickness\" or \"d0\", or {} in the scene",
@@ -141,6 +175,13 @@ class MapReader {
                        polygon.name.empty() ? "" : fmt::format(" (\"{}\")", polygon.name));
   }
 
+  bool in_same_system(const fs::path& file) {
+    if (found_.elevation.empty() || same_coordinates(file, found_.elevation)) return true;
+    add(fmt::format("{}: is in another system of coordinates than {}: project it to that", file.string(),
+                    found_.elevation.string()));
+    return false;
+  }
+
   /// Of a file, if all of them lie where they may; else none, and the report says why.
   std::vector<MapPolygon> polygons_of(const fs::path& file) {
     std::vector<MapPolygon> polygons;
@@ -150,11 +191,7 @@ class MapReader {
       add(error.what());
       return {};
     }
-    if (!found_.elevation.empty() && !same_coordinates(file, found_.elevation)) {
-      add(fmt::format("{}: is in another system of coordinates than {}: project it to that", file.string(),
-                      found_.elevation.string()));
-      return {};
-    }
+    if (!in_same_system(file)) return {};
     for (const MapPolygon& polygon : polygons) {
       const Outline outline = polygon.one_ring();
       std::string wrong = scene_.elevation ? off_the_model(*scene_.elevation, outline) : "";

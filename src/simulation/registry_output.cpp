@@ -5,6 +5,12 @@
 namespace spindrift {
 
 void add_output(Registry& r) {
+  using L = PathSection;
+  Rows<&Scene::path>(r, "path", "the line on a 3D ground along which the front is measured")
+      .number<&L::points>("points", "m", position,
+                          "vertices (x, y) downhill, 0 m at the first; the line goes on straight at both ends")
+      .plain<&L::file>("file", "in place of points: a shapefile or another map of one line");
+
   using P = PylonSection;
   Rows<&Scene::pylon>(r, "pylon", "an instrument that stands at one place; there may be several")
       .plain<&P::name>("name", "of its columns in pylons.csv; default: pylon1, pylon2, ...")

@@ -77,8 +77,8 @@ void add_setting(Registry& r) {
           "ESRI ASCII grid or, with GDAL, a GeoTIFF; its path is seen from the scene file")
       .always()
       .plain<&T::avaframe>("avaframe",
-                           "folder of AvaFrame that has an elevation model, areas of release in `REL` and of the cover "
-                           "in `ENT`; makes shape grid");
+                           "folder of AvaFrame that has an elevation model, areas of release in `REL`, of the cover in "
+                           "`ENT`, and perhaps a path in `LINES`; makes shape grid");
 
   using B = ObstacleSection;
   Rows<&Scene::obstacle>(r, "obstacle", "something solid, for snow and air; there may be several")

@@ -204,6 +204,12 @@ struct EntrainmentSection {
   bool shared_traction = true;  ///< bed friction spares what brings entrained snow up to speed (R16)
 };
 
+/// The line along which the front is measured, on a 3D ground.
+struct PathSection {
+  std::vector<std::array<double, 2>> points;  ///< vertices (x, y), downhill [m]
+  std::string file;                           ///< of the line, empty once it is read
+};
+
 /// An instrument that stands at one place.
 struct PylonSection {
   std::string name;              ///< of its columns; default: "pylon1", "pylon2", ...
@@ -234,6 +240,7 @@ struct Scene {
   std::vector<SmokeSection> smoke;
   std::optional<CouplingSection> coupling;
   std::optional<EntrainmentSection> entrainment;
+  std::optional<PathSection> path;
   std::vector<PylonSection> pylon;
   OutputSection output;
 

@@ -38,6 +38,7 @@ class Checker {
       release(numbered("release", i, scene_.release.size()), scene_.release[i]);
     for (std::size_t i = 0; i < scene_.smoke.size(); ++i)
       shape(numbered("smoke", i, scene_.smoke.size()), scene_.smoke[i]);
+    if (scene_.path) path(scene_.path->points);
     pylons();
     if (scene_.suspension) lid(*scene_.suspension);
     if (scene_.suspension && scene_.suspension->tiles) tiles(*scene_.suspension);
@@ -65,6 +66,21 @@ class Checker {
     if (name.empty() || name.size() > 64 || name == "." || name == ".." ||
         !std::all_of(name.begin(), name.end(), allowed))
       add(path, fmt::format("got {}, expected 1 to 64 letters, digits, '.', '_' or '-'", text_of({name, {}})));
+  }
+
+  /// A line seen from above on 3D ground.
+  void path(const std::vector<std::array<double, 2>>& points) {
+    const std::string key = "path.points";
+    if (!report_.good({"path", key, "scene.dim"})) return;
+    check_area_ground("path", scene_, places_, report_);
+    if (points.empty()) return add(key, "missing, expected at least 2 points (x, y)");
+    if (points.size() == 1) return add(key, "got 1 point, expected at least 2 (x, y)");
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto [x, y] = points[i];
+      inside_domain(key, {x, y}, {x, y}, {0, 1});
+      if (i > 0 && points[i] == points[i - 1])
+        add(key, fmt::format("got ({}, {}) twice in a row", number_text(x), number_text(y)));
+    }
   }
 
   /// Each has a name of its own and stands in the domain.

@@ -44,6 +44,9 @@ must be there, and an elevation model makes up for it. Every other section switc
   all: an area of release, of cover or of obstacle each. Their field `thickness` or `d0`, a number or text, is the
   release's thickness or the cover's depth, where the scene says none. A polygon off the model, or coordinates of another
   system (where polygons and model both say theirs), are refused.
+- **Where the front is**: over a 3D ground its way is straight from the middle of the release, unless the scene has a
+  `[path]`: a line seen from above, from `points` or a map, as long as the ground under it; snow beside it counts where
+  the line is nearest. A folder of AvaFrame may have one, the shapefile of `LINES/` with `aimec` in its name.
 - **Walls and dams**: an `[[obstacle]]` of `shape = "area"` raises the ground by its `height`. Its sides are as steep as
   a cell of the ground allows; one narrower than a cell gets lower, and keeps its volume.
 - **Folders of AvaFrame**: `terrain.avaframe = "avaKot"` takes the only `.asc` or `.tif` in the folder or its `Inputs/`

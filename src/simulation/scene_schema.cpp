@@ -121,7 +121,7 @@ std::string described_defaults(std::string_view preset) {
       const Key* place = find_key(fmt::format("{}.{}", section.path, name));
       return place != nullptr && applies(*place, scene, 0);
     };
-    const bool whole = !section.repeats || (!wanted("lower") && !wanted("position"));
+    const bool whole = section.repeats ? !wanted("lower") && !wanted("position") : !wanted("points");
     text += fmt::format("\n{}[{}]  # {}\n", whole ? "" : "# ", section.path, section.doc);
     for (const Key& key : keys()) {
       if (key.section() != section.path) continue;

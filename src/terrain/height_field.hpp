@@ -44,6 +44,7 @@ class HeightField {
   /// Whether the steepest slope shows that x is `reach` [m] or more above the ground. Cost: one height.
   bool clears(const Vec<3>& x, double reach) const;
 
+  double cell() const { return cell_; }  ///< between neighbouring points of the grid [m]
   /// Bound of height over distance: 1 / cos of the steepest slope.
   double lipschitz() const { return lipschitz_; }
   std::size_t bytes() const;

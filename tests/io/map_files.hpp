@@ -58,6 +58,26 @@ inline void write_shapefile(const std::filesystem::path& file, const std::vector
   if (system != nullptr) OSRRelease(system);
 }
 
+/// A shapefile of lines.
+inline void write_lines(const std::filesystem::path& file, const std::vector<std::vector<std::array<double, 2>>>& lines,
+                        int epsg = 0) {
+  const QuietGdal quiet;
+  GDALDatasetH data = GDALCreate(GDALGetDriverByName("ESRI Shapefile"), file.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
+  REQUIRE(data != nullptr);
+  OGRSpatialReferenceH system = system_of(epsg);
+  OGRLayerH layer = GDALDatasetCreateLayer(data, file.stem().c_str(), system, wkbLineString, nullptr);
+  for (const auto& points : lines) {
+    OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(layer));
+    OGRGeometryH line = OGR_G_CreateGeometry(wkbLineString);
+    for (const auto& [x, y] : points) OGR_G_AddPoint_2D(line, x, y);
+    OGR_F_SetGeometryDirectly(feature, line);
+    REQUIRE(OGR_L_CreateFeature(layer, feature) == OGRERR_NONE);
+    OGR_F_Destroy(feature);
+  }
+  GDALClose(data);
+  if (system != nullptr) OSRRelease(system);
+}
+
 struct TiffOptions {
   double turn = 0;  ///< of the geotransform
   double height_of_cell = 0;

@@ -10,7 +10,8 @@
 
 namespace spindrift {
 
-/// Every section, at the defaults of `preset`, in a domain of 100 m; all that the reader would fill in is filled in.
+/// Every section that any scene may have, at the defaults of `preset`, in a domain of 100 m; all that the reader would
+/// fill in is filled in. No [path], which needs a height field.
 inline Scene scene_with_everything(int dim, std::string_view preset = "physical") {
   Scene scene = complete_scene(preset);
   const auto n = static_cast<std::size_t>(dim);
@@ -25,6 +26,7 @@ inline Scene scene_with_everything(int dim, std::string_view preset = "physical"
   scene.suspension->lid.assign(n, 0);
   scene.smoke[0].lower.assign(n, 1);
   scene.smoke[0].upper.assign(n, 2);
+  scene.path.reset();
   scene.pylon[0].position.assign(n - 1, 3);
   scene.pylon[0].name = "pylon1";
   scene.obstacle[0].lower.assign(n, -2);

@@ -15,6 +15,7 @@
 #include "simulation/plan.hpp"
 #include "simulation/release.hpp"
 #include "simulation/run.hpp"
+#include "simulation/scene_writer.hpp"
 #include "simulation/setup.hpp"
 #include "simulation/simulation.hpp"
 
@@ -286,6 +287,43 @@ TEST_CASE("Releases, cover and obstacles from files of one's own, with holes", "
   folder.scene(grid_keys);
   CHECK_THAT(folder.refusal({"cover.file=two.shp"}),
              Catch::Contains("polygon 2: is 0.4 m thick, others are 0.3 m: the cover has one depth, say cover.depth"));
+}
+
+TEST_CASE("The avalanche's path comes from the folder's LINES or from a file of one's own", "[map][path]") {
+  const MountainFolder folder;
+  CHECK(!folder.read().path);
+  const Ring line{{east + 10, north + 30}, {east + 60, north + 30}, {east + 100, north + 60}};
+  fs::create_directories(folder.ava() / "LINES");
+  write_lines(folder.ava() / "LINES" / "path_aimec.shp", {line});
+  write_lines(folder.ava() / "LINES" / "something_else.shp", {line, line});
+  const Scene scene = folder.read();
+  REQUIRE(scene.path);
+  CHECK(scene.path->points == line);
+  CHECK(around_local_origin(scene).path->points[0] == std::array<double, 2>{10, 30});
+  CHECK(parse_scene(write_scene(scene), (folder.path() / "kept.toml").string()).path->points == line);
+
+  // The scene's own goes before.
+  write_lines(folder.path() / "own.shp", {{line[0], line[2]}});
+  CHECK(folder.read({"path.file=own.shp"}).path->points.size() == 2);
+  CHECK(folder.read({"path.points=[[223020, 5365020], [223040, 5365040]]"}).path->points[1][0] == 223040);
+
+  const std::string place = (folder.path() / "a.toml").string() + ":6:12: terrain.avaframe: ";
+  const std::string file = (folder.ava() / "LINES" / "path_aimec.shp").string();
+  write_lines(file, {{line[0], {east + 130, north + 30}}});
+  CHECK(folder.refusal() ==
+        place + file + ": reaches 223130 along x, expected it inside the domain, which goes from 223001 to 223119");
+  write_lines(file, {line, line});
+  CHECK(folder.refusal() == place + file + ": there are 2 lines in it, expected one");
+  write_shapefile(file, {{{square(10, 20, 20)}, ""}});
+  CHECK(folder.refusal() == place + file + ": feature 1 is a Polygon, expected a line");
+  write_lines(folder.ava() / "LINES" / "b_aimec.shp", {line});
+  CHECK_THAT(folder.refusal(), Catch::Contains("b_aimec.shp and ") && Catch::Contains(": say path.file"));
+  CHECK(folder.refusal({"path.file=own.shp"}) == "");
+  write_lines(folder.path() / "own.shp", {line}, 32632);
+  write_shapefile(folder.path() / "other.shp", {{{square(1, 2, 2)}, "1"}}, "thickness", 31287);
+  fs::copy_file(folder.path() / "other.prj", folder.ava() / "dem.prj");
+  CHECK_THAT(folder.refusal({"path.file=own.shp"}),
+             Catch::Contains("--set: path.file: ") && Catch::Contains("is in another system of coordinates than"));
 }
 
 TEST_CASE("The scenes of configs/real run on a folder of AvaFrame", "[map][configs]") {

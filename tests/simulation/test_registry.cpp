@@ -140,6 +140,7 @@ TEST_CASE("defaults are the structs' own", "[registry]") {
   structs.coupling->generation.emplace();
   structs.coupling->adhesion.emplace();
   structs.entrainment.emplace();
+  structs.path.emplace();
   structs.pylon.emplace_back();
   CHECK(same(complete_scene("physical"), structs));
 }
