@@ -33,6 +33,7 @@ MapFeatures::Points MapFeatures::points_of(OGRGeometryH line, const std::string&
     within_degrees_ = within_degrees_ && std::abs(x) <= most_longitude && std::abs(y) <= most_latitude;
     points.push_back({x, y});
   }
+  n_points_ += points.size();
   return points;
 }
 
@@ -44,7 +45,7 @@ void MapFeatures::finish() const {
   if (CPLGetLastErrorType() >= CE_Failure) refuse(fmt::format("cut off or damaged: {}", CPLGetLastErrorMsg()));
   // GeoJSON without a system of coordinates counts as degrees: only numbers that can be such are refused.
   const OGRSpatialReferenceH system = OGR_L_GetSpatialRef(layer_);
-  if (system != nullptr && OSRIsGeographic(system) != 0 && within_degrees_)
+  if (system != nullptr && OSRIsGeographic(system) != 0 && n_points_ > 0 && within_degrees_)
     refuse("its coordinates are degrees, expected metres: project it to the terrain's coordinates");
 }
 

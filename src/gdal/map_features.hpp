@@ -4,6 +4,7 @@
 #include <ogr_api.h>
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -54,7 +55,8 @@ class MapFeatures {
   QuietGdal quiet_;
   GdalData data_;
   OGRLayerH layer_ = nullptr;
-  bool within_degrees_ = true;  ///< all points so far could be degrees
+  std::size_t n_points_ = 0;    ///< so far
+  bool within_degrees_ = true;  ///< all of them could be degrees
 };
 
 }  // namespace spindrift::gdal
