@@ -107,4 +107,10 @@ struct Box {
   }
 };
 
+/// What two boxes have in common; of negative size along some axis where they have nothing.
+template <int Dim>
+Box<Dim> common(const Box<Dim>& a, const Box<Dim>& b) {
+  return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
+}
+
 }  // namespace spindrift

@@ -80,8 +80,7 @@ double covered_area(const Scene& scene, const HeightField& ground) {
   if (areas.empty()) return ground_area(ground, extent, [](const Vec<2>&) { return true; });
   Box<2> around = extent_of(areas.front());
   for (const Outline& area : areas) around = hull_of(around, extent_of(area));
-  const Box<2> within{extent.lower.cwiseMax(around.lower), extent.upper.cwiseMin(around.upper)};
-  return ground_area(ground, within, [&](const Vec<2>& place) { return inside_any(areas, place); });
+  return ground_area(ground, common<2>(extent, around), [&](const Vec<2>& place) { return inside_any(areas, place); });
 }
 
 /// Between the highest and the lowest ground inside the domain [m].

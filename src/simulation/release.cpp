@@ -143,9 +143,9 @@ void set_in_motion(Particles<Dim>& snow, const ReleaseSection& release) {
 /// Share of a cell that a box fills.
 template <int Dim>
 double filled_share(const Box<Dim>& box, const MacGrid<Dim>& grid, const Index<Dim>& cell) {
-  const Vec<Dim> lower = grid.node(cell).cwiseMax(box.lower);
-  const Vec<Dim> upper = (grid.node(cell) + Vec<Dim>::Constant(grid.dx)).cwiseMin(box.upper);
-  return (upper - lower).cwiseMax(0).prod() / grid.cell_volume();
+  const Vec<Dim> lower = grid.node(cell);
+  const Box<Dim> inside = common<Dim>({lower, lower + Vec<Dim>::Constant(grid.dx)}, box);
+  return inside.size().cwiseMax(0).prod() / grid.cell_volume();
 }
 
 /// Share of a cell that a shape of smoke fills, the surface of balls and polygons taken as plane within the cell.

@@ -11,8 +11,8 @@ namespace spindrift {
 namespace {
 
 GroundLayer ground_layer(const CoverLayer& layer, double spacing) {
-  const Vec<2> lower(layer.from, layer.y.from), upper(layer.to, layer.y.to);
-  return {.extent = {lower.cwiseMax(layer.within.lower), upper.cwiseMin(layer.within.upper)},
+  const Box<2> extent{{layer.from, layer.y.from}, {layer.to, layer.y.to}};
+  return {.extent = common<2>(extent, layer.within),
           .thickness = layer.depth,
           .spacing = spacing,
           .seed = layer.seed,
