@@ -112,6 +112,7 @@ void GroundSurface<Dim>::look_at(const Walls<Dim>& walls, F&& is_new) {
   };
   parallel_for(found.size(), look, 1);
   for (const std::vector<Near>& of_layer : found) near_.insert(near_.end(), of_layer.begin(), of_layer.end());
+  near_.shrink_to_fit();
   std::sort(near_.begin(), near_.end(),
             [](const Near& a, const Near& b) { return a.column != b.column ? a.column < b.column : a.node < b.node; });
 }

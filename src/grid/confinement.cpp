@@ -34,49 +34,65 @@ struct Difference {
   double operator()(int i) const { return (high[i] + high[i + next]) - (low[i] + low[i + next]); }
 };
 
+/// omega of the cells of an inner row [s^-1].
+template <int Dim>
+class RowVorticity;
+
+template <>
+class RowVorticity<2> {
+ public:
+  RowVorticity(const FaceField<2>& u, double dx, const Index<2>& start)
+      : quarter_(0.25 / dx), xz_(u, 0, 1, start), zx_(u, 1, 0, start) {}
+  Curl<2> operator()(int i) const { return Curl<2>(quarter_ * (xz_(i) - zx_(i))); }
+
+ private:
+  double quarter_;
+  Difference<2> xz_, zx_;
+};
+
+template <>
+class RowVorticity<3> {
+ public:
+  RowVorticity(const FaceField<3>& u, double dx, const Index<3>& start)
+      : quarter_(0.25 / dx),
+        zy_(u, 2, 1, start),
+        yz_(u, 1, 2, start),
+        xz_(u, 0, 2, start),
+        zx_(u, 2, 0, start),
+        yx_(u, 1, 0, start),
+        xy_(u, 0, 1, start) {}
+  Curl<3> operator()(int i) const {
+    return {quarter_ * (zy_(i) - yz_(i)), quarter_ * (xz_(i) - zx_(i)), quarter_ * (yx_(i) - xy_(i))};
+  }
+
+ private:
+  double quarter_;
+  Difference<3> zy_, yz_, xz_, zx_, yx_, xy_;
+};
+
 }  // namespace
 
 template <int Dim>
 void Confinement<Dim>::find_vorticity(const FaceField<Dim>& u, const MacGrid<Dim>& grid) {
-  const double quarter = 0.25 / grid.dx;
-  turning_.assign(curl_[0].n_rows(), 0);
+  turning_.assign(size_.n_rows(), 0);
   parallel_for(
-      curl_[0].n_rows(),
+      size_.n_rows(),
       [&](std::size_t r) {
-        const Index<Dim> start = curl_[0].row_start(r);
+        const Index<Dim> start = size_.row_start(r);
         if (!is_inner_row<Dim>(start, grid.cells)) return;
         const int n = grid.cells[0];
-        double most = 0;
-        if constexpr (Dim == 2) {
-          double* curl = curl_[0].row(r).data();
-          const Difference<Dim> a(u, 0, 1, start), b(u, 1, 0, start);
-          for (int i = 1; i < n - 1; ++i) {
-            curl[i] = quarter * (a(i) - b(i));
-          }
-          most = max_packs(1, n - 1, [&]<class T>(int i) { return magnitude(load<T>(curl + i)); });
-        } else {
-          double* size = size_.row(r).data();
-          std::array<double*, 3> curl;
-          for (std::size_t k = 0; k < 3; ++k) curl[k] = curl_[k].row(r).data();
-          const Difference<Dim> zy(u, 2, 1, start), yz(u, 1, 2, start), xz(u, 0, 2, start), zx(u, 2, 0, start),
-              yx(u, 1, 0, start), xy(u, 0, 1, start);
-          for (int i = 1; i < n - 1; ++i) {
-            curl[0][i] = quarter * (zy(i) - yz(i));
-            curl[1][i] = quarter * (xz(i) - zx(i));
-            curl[2][i] = quarter * (yx(i) - xy(i));
-            size[i] = std::sqrt(curl[0][i] * curl[0][i] + curl[1][i] * curl[1][i] + curl[2][i] * curl[2][i]);
-          }
-          most = max_packs(1, n - 1, [&]<class T>(int i) { return load<T>(size + i); });
-        }
-        turning_[r] = most > quiet_vorticity;
+        const RowVorticity<Dim> omega(u, grid.dx, start);
+        double* size = size_.row(r).data();
+        for (int i = 1; i < n - 1; ++i) size[i] = std::sqrt(omega(i).squaredNorm());
+        turning_[r] = max_packs(1, n - 1, [&]<class T>(int i) { return load<T>(size + i); }) > quiet_vorticity;
       },
-      curl_[0].rows_per_task());
+      size_.rows_per_task());
 }
 
 /// Of the cells of row r; 0 where the air is quiet or a neighbour has a closed face.
 template <int Dim>
-void Confinement<Dim>::find_force(std::size_t r, const FaceField<Dim>& flow_area, const MacGrid<Dim>& grid,
-                                  double strength) {
+void Confinement<Dim>::find_force(std::size_t r, const FaceField<Dim>& u, const FaceField<Dim>& flow_area,
+                                  const MacGrid<Dim>& grid, double strength) {
   for (auto& force : force_) std::fill(force.row(r).begin(), force.row(r).end(), 0.0);
   if (!turning_[r]) return;
   const auto open = [&](const Index<Dim>& cell) {
@@ -86,27 +102,20 @@ void Confinement<Dim>::find_force(std::size_t r, const FaceField<Dim>& flow_area
     }
     return true;
   };
-  const auto size = [&](const Index<Dim>& cell) {
-    if constexpr (Dim == 2)
-      return std::abs(curl_[0][cell]);
-    else
-      return size_[cell];
-  };
-  Index<Dim> i = curl_[0].row_start(r);
+  Index<Dim> i = size_.row_start(r);
+  const RowVorticity<Dim> omega(u, grid.dx, i);
   for (i[0] = 1; i[0] + 1 < grid.cells[0]; ++i[0]) {
-    if (!(size(i) > quiet_vorticity)) continue;
+    if (!(size_[i] > quiet_vorticity)) continue;
     bool inner = open(i);
     Vec<Dim> gradient;
     for (int k = 0; k < Dim; ++k) {
       const Index<Dim> below = shifted<Dim>(i, k, -1), above = shifted<Dim>(i, k, 1);
       inner = inner && open(below) && open(above);
-      gradient[k] = size(above) - size(below);
+      gradient[k] = size_[above] - size_[below];
     }
     const double steepness = gradient.norm();
     if (!inner || !(steepness > 0)) continue;
-    Curl<Dim> omega;
-    for (std::size_t k = 0; k < n_curl<Dim>; ++k) omega[static_cast<int>(k)] = curl_[k][i];
-    const Vec<Dim> force = strength * grid.dx * cross<Dim>(Vec<Dim>(gradient / steepness), omega);
+    const Vec<Dim> force = strength * grid.dx * cross<Dim>(Vec<Dim>(gradient / steepness), omega(i[0]));
     for (std::size_t k = 0; k < Dim; ++k) force_[k][i] = force[static_cast<int>(k)];
   }
 }
@@ -114,11 +123,9 @@ void Confinement<Dim>::find_force(std::size_t r, const FaceField<Dim>& flow_area
 template <int Dim>
 Vec<Dim> Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_area, const Ground<Dim>& ground,
                                  const Field<Dim>& smoke, const MacGrid<Dim>& grid, double strength, double dt) {
-  if (curl_[0].size() == 0) {
-    const Field<Dim> zero(grid.cells);
-    force_.fill(zero);
-    curl_.fill(zero);
-    if (Dim == 3) size_ = zero;
+  if (size_.size() == 0) {
+    size_ = Field<Dim>(grid.cells);
+    force_.fill(size_);
   }
   find_vorticity(u, grid);
   // A face takes half of the force of each cell beside it: rows beside one whose air turns have a share in it.
@@ -126,25 +133,25 @@ Vec<Dim> Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_a
   const auto any_turns = [&](std::size_t r, bool above_too) {
     bool any = turning_[r] != 0;
     for (int k = 1; k < Dim; ++k) {
-      const std::size_t rows = static_cast<std::size_t>(curl_[0].stride(k)) / row_length;
+      const std::size_t rows = static_cast<std::size_t>(size_.stride(k)) / row_length;
       any = any || (r >= rows && turning_[r - rows]) || (above_too && r + rows < turning_.size() && turning_[r + rows]);
     }
     return any;
   };
   parallel_for(
-      curl_[0].n_rows(),
+      size_.n_rows(),
       [&](std::size_t r) {
-        if (any_turns(r, true)) find_force(r, flow_area, grid, strength);
+        if (any_turns(r, true)) find_force(r, u, flow_area, grid, strength);
       },
-      curl_[0].rows_per_task());
+      size_.rows_per_task());
 
   const auto push_row = [&](std::size_t r) -> Vec<Dim> {
     Vec<Dim> given = Vec<Dim>::Zero();
-    const Index<Dim> start = curl_[0].row_start(r);
+    const Index<Dim> start = size_.row_start(r);
     if (!any_turns(r, false) || !is_inner_row<Dim>(start, grid.cells)) return given;
     for (int k = 0; k < Dim; ++k) {
       const auto axis = static_cast<std::size_t>(k);
-      const std::ptrdiff_t stride = curl_[0].stride(k);
+      const std::ptrdiff_t stride = size_.stride(k);
       double* speed = &u[axis][start];
       const double *area = &flow_area[axis][start], *air = &ground.air_mass()[axis][start];
       const double *force = &force_[axis][start], *mass = &smoke[start];
@@ -157,20 +164,19 @@ Vec<Dim> Confinement<Dim>::apply(FaceField<Dim>& u, const FaceField<Dim>& flow_a
     return given;
   };
   return parallel_reduce(
-      curl_[0].n_rows(), Vec<Dim>(Vec<Dim>::Zero()),
+      size_.n_rows(), Vec<Dim>(Vec<Dim>::Zero()),
       [&](std::size_t begin, std::size_t end) {
         Vec<Dim> given = Vec<Dim>::Zero();
         for (std::size_t r = begin; r < end; ++r) given += push_row(r);
         return given;
       },
-      [](const Vec<Dim>& a, const Vec<Dim>& b) -> Vec<Dim> { return a + b; }, curl_[0].rows_per_task());
+      [](const Vec<Dim>& a, const Vec<Dim>& b) -> Vec<Dim> { return a + b; }, size_.rows_per_task());
 }
 
 template <int Dim>
 std::size_t Confinement<Dim>::bytes() const {
   std::size_t n = size_.bytes() + spindrift::bytes(turning_);
   for (const auto& f : force_) n += f.bytes();
-  for (const auto& f : curl_) n += f.bytes();
   return n;
 }
 

@@ -27,11 +27,11 @@ class Confinement {
 
  private:
   void find_vorticity(const FaceField<Dim>& u, const MacGrid<Dim>& grid);
-  void find_force(std::size_t row, const FaceField<Dim>& flow_area, const MacGrid<Dim>& grid, double strength);
+  void find_force(std::size_t row, const FaceField<Dim>& u, const FaceField<Dim>& flow_area, const MacGrid<Dim>& grid,
+                  double strength);
 
   std::array<Field<Dim>, Dim> force_;  ///< at cell centres [m s^-2], in and beside the rows whose air turns
-  std::array<Field<Dim>, n_curl<Dim>> curl_;
-  Field<Dim> size_;                    ///< |omega|; in 2D that of curl_
+  Field<Dim> size_;                    ///< |omega| at cell centres [s^-1]
   std::vector<std::uint8_t> turning_;  ///< of each row: 1 where its air turns
 };
 

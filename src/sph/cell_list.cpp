@@ -142,20 +142,13 @@ bool CellList<Dim>::sort_entries(const Particles<Dim>& particles) {
 
 template <int Dim>
 void CellList<Dim>::permute(Particles<Dim>& particles) {
-  const auto gather = [&](auto& array, auto& other) {
+  particles.for_each_array([&]<class T>(std::vector<T>& array) {
+    auto& other = std::get<std::vector<T>>(others_);
     other.resize(array.size());
     parallel_for(
         array.size(), [&](std::size_t i) { other[i] = array[order_[i]]; }, 4096);
     array.swap(other);
-  };
-  Particles<Dim>& other = other_particles_;
-  gather(particles.position, other.position);
-  gather(particles.velocity, other.velocity);
-  gather(particles.mass, other.mass);
-  gather(particles.volume, other.volume);
-  gather(particles.pressure, other.pressure);
-  gather(particles.entrained_at, other.entrained_at);
-  gather(particles.id, other.id);
+  });
 }
 
 template <int Dim>
@@ -217,13 +210,14 @@ template <int Dim>
 void CellList<Dim>::release_scratch() {
   entries_ = {};
   other_entries_ = {};
-  other_particles_ = {};
+  others_ = {};
 }
 
 template <int Dim>
 std::size_t CellList<Dim>::bytes() const {
   return spindrift::bytes(order_, starts_) + spindrift::bytes(keys_) + spindrift::bytes(runs_) +
-         spindrift::bytes(entries_, other_entries_) + other_particles_.bytes();
+         spindrift::bytes(entries_, other_entries_) +
+         std::apply([](const auto&... other) { return spindrift::bytes(other...); }, others_);
 }
 
 template class CellList<2>;

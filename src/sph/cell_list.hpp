@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/vec.hpp"
@@ -83,7 +84,8 @@ class CellList {
   std::vector<std::uint32_t> starts_;  ///< first particle of each occupied cell, and the end
   std::vector<Runs> runs_;
   std::vector<Entry> entries_, other_entries_;
-  Particles<Dim> other_particles_;
+  /// Takes a sorted array of its type, and is left with the unsorted one.
+  std::tuple<std::vector<Vec<Dim>>, std::vector<double>, std::vector<std::uint64_t>> others_;
 };
 
 }  // namespace spindrift
