@@ -11,16 +11,18 @@ namespace {
 /// phi of each particle: the particle mass per air mass of the faces around it, mean over the axes.
 template <int Dim>
 void find_loading(OverlapRegion<Dim>& region, const Particles<Dim>& particles) {
-  std::fill(region.loading.begin(), region.loading.end(), 0.0);
-  for (int axis = 0; axis < Dim; ++axis) {
-    std::vector<double>& particle_mass = region.face_scratch;
+  for_each_axis<Dim>([&](int axis) {
+    std::vector<double>& particle_mass = region.particle_mass[axis];
     particle_mass.assign(region.face_mass[axis].size(), 0.0);
     for (std::size_t k = 0; k < region.size(); ++k)
       region.on_faces[axis][k].spread(particles.mass[region.particles[k]], particle_mass);
     for (std::size_t s = 0; s < particle_mass.size(); ++s) particle_mass[s] /= region.face_mass[axis][s];
-    for (std::size_t k = 0; k < region.size(); ++k)
-      region.loading[k] += region.on_faces[axis][k].gather(particle_mass) / Dim;
-  }
+  });
+  parallel_for(region.size(), [&](std::size_t k) {
+    region.loading[k] = 0;
+    for (int axis = 0; axis < Dim; ++axis)
+      region.loading[k] += region.on_faces[axis][k].gather(region.particle_mass[axis]) / Dim;
+  });
 }
 
 /// Vorticity at x by (bi/tri)linear interpolation of the vorticity on the grid's edges: the difference of the
@@ -42,13 +44,27 @@ Curl<Dim> vorticity_at(const Suspension<Dim>& suspension, const Vec<Dim>& x) {
   }
 }
 
-/// The faces' velocity from the momentum given to them so far.
+/// Gives the region's particle k an impulse [kg m s^-1] along the axes that have open faces around it.
 template <int Dim>
-void answer_of_air(OverlapRegion<Dim>& region) {
+void push(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Particles<Dim>& particles, std::size_t k,
+          Vec<Dim> impulse) {
   for (int axis = 0; axis < Dim; ++axis)
+    if (!region.on_faces[axis][k].any()) impulse[axis] = 0;
+  const std::uint32_t i = region.particles[k];
+  exchange.on_particles.momentum[i] += impulse;
+  region.velocity[k] += impulse / particles.mass[i];
+  region.impulse[k] = impulse;
+}
+
+/// Takes from the faces what push() gave to the particles.
+template <int Dim>
+void push_air(OverlapRegion<Dim>& region) {
+  for_each_axis<Dim>([&](int axis) {
+    std::vector<double>& momentum = region.face_momentum[axis];
+    for (std::size_t k = 0; k < region.size(); ++k) region.on_faces[axis][k].spread(-region.impulse[k][axis], momentum);
     for (std::size_t s = 0; s < region.faces[axis].size(); ++s)
-      region.face_velocity[axis][s] =
-          region.start_velocity[axis][s] + region.face_momentum[axis][s] / region.face_mass[axis][s];
+      region.face_velocity[axis][s] = region.start_velocity[axis][s] + momentum[s] / region.face_mass[axis][s];
+  });
 }
 
 }  // namespace
@@ -79,29 +95,23 @@ void exchange_drag(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
   find_loading(region, particles);
   const std::size_t n = region.size();
   region.coupled_mass.resize(n);
-  for (std::size_t k = 0; k < n; ++k) {
+  parallel_for(n, [&](std::size_t k) {
     const std::uint32_t i = region.particles[k];
     region.stiffness[k] = drag_stiffness(drag, dt, radius, air_density, particles.volume[i], particles.mass[i]);
     const double beta = drag_rate(region.stiffness[k], region.loading[k], region.slip[k], gravity_predicted);
     region.coupled_mass[k] = particles.mass[i] * beta / (1 + beta);
-  }
+  });
 
-  for (int axis = 0; axis < Dim; ++axis) {
+  for_each_axis<Dim>([&](int axis) {
     const std::vector<double>& face_mass = region.face_mass[axis];
     const bool frozen = !face_mass.empty() && std::isinf(face_mass.front());
     if (!frozen) solve_face_velocity<Dim>(region, axis);
-    for (std::size_t k = 0; k < n; ++k) {
-      const Shares<Dim>& shares = region.on_faces[axis][k];
-      if (!shares.any()) continue;
-      const std::uint32_t i = region.particles[k];
-      const double impulse =
-          region.coupled_mass[k] * (shares.gather(region.face_velocity[axis]) - region.velocity[k][axis]);
-      exchange.on_particles.momentum[i][axis] += impulse;
-      region.velocity[k][axis] += impulse / particles.mass[i];
-      shares.spread(-impulse, region.face_momentum[axis]);
-    }
-  }
-  answer_of_air(region);
+  });
+  region.impulse.resize(n);
+  parallel_for(n, [&](std::size_t k) {
+    push<Dim>(region, exchange, particles, k, region.coupled_mass[k] * (region.air_velocity(k) - region.velocity[k]));
+  });
+  push_air(region);
 }
 
 template <int Dim>
@@ -109,7 +119,8 @@ void exchange_lift(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
                    const Suspension<Dim>& suspension, const ForceOptions& lift, double dt) {
   find_loading(region, particles);
   const std::size_t n = region.size();
-  for (std::size_t k = 0; k < n; ++k) {
+  region.impulse.resize(n);
+  parallel_for(n, [&](std::size_t k) {
     const std::uint32_t i = region.particles[k];
     const double m = particles.mass[i];
     const double per_mass =
@@ -119,16 +130,9 @@ void exchange_lift(OverlapRegion<Dim>& region, Exchange<Dim>& exchange, const Pa
     const double angle = theta.norm();
     if (angle > 1) theta /= angle;
     const Vec<Dim> w = region.velocity[k] - region.air_velocity(k);
-    const Vec<Dim> impulse = m / (1 + region.loading[k]) * (damped_rotation<Dim>(w, theta) - w);
-    for (int axis = 0; axis < Dim; ++axis) {
-      const Shares<Dim>& shares = region.on_faces[axis][k];
-      if (!shares.any()) continue;
-      exchange.on_particles.momentum[i][axis] += impulse[axis];
-      region.velocity[k][axis] += impulse[axis] / m;
-      shares.spread(-impulse[axis], region.face_momentum[axis]);
-    }
-  }
-  answer_of_air(region);  // once all particles have pushed: none's lift depends on another's place in the list
+    push<Dim>(region, exchange, particles, k, m / (1 + region.loading[k]) * (damped_rotation<Dim>(w, theta) - w));
+  });
+  push_air(region);  // once all particles have been pushed: none's lift depends on another's place in the list
 }
 
 #define INSTANTIATE(Dim)                                                                                               \

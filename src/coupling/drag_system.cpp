@@ -21,7 +21,7 @@ void apply(std::vector<double>& image, const std::vector<double>& x, const Overl
 
 template <int Dim>
 void solve_face_velocity(OverlapRegion<Dim>& region, int axis) {
-  auto& [lumped, residual, direction, image] = region.drag_system;
+  auto& [lumped, residual, direction, image] = region.drag_system[axis];
   const std::vector<double>& mass = region.face_mass[axis];
   std::vector<double>& u = region.face_velocity[axis];
   const std::size_t n = u.size();

@@ -37,7 +37,8 @@ void classify_overlap(std::vector<std::uint8_t>& overlap, const DenseFlow<Dim>& 
     const auto full = [&] { return n / lattice_volume >= threshold; };
     if (cover.present() && !full())
       cover.cells->for_each_near(x, [&](std::uint32_t c) {
-        n += cover.particles->volume[c] * number_density_kernel((x - cover.particles->position[c]).norm(), h, d);
+        const double square = (x - cover.particles->position[c]).squaredNorm();
+        if (square < h * h) n += cover.particles->volume[c] * number_density_kernel(std::sqrt(square), h, d);
       });
     if (!full())
       n += dense.wall_kernel().number_density_share(walls, x, dense.foot(i)) *

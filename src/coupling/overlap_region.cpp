@@ -52,7 +52,7 @@ void find_region(OverlapRegion<Dim>& region, const Particles<Dim>& particles, st
     region.on_cells[k] = shares_of<Dim>(cell_stencil<Dim>(grid, particles.position[region.particles[k]]), region.cells,
                                         [&](std::size_t cell) { return takes_smoke(suspension, cell); });
 
-  for (int axis = 0; axis < Dim; ++axis) {
+  for_each_axis<Dim>([&](int axis) {
     PointSet<Dim>& faces = region.faces[axis];
     faces.clear(count<Dim>(grid.faces(axis)));
     region.on_faces[axis].resize(n);
@@ -69,19 +69,21 @@ void find_region(OverlapRegion<Dim>& region, const Particles<Dim>& particles, st
       region.face_velocity[axis][s] = suspension.velocity()[axis][faces.points()[s]];
     }
     region.start_velocity[axis] = region.face_velocity[axis];
-  }
-  for (std::size_t k = 0; k < n; ++k) region.slip[k] = (region.velocity[k] - region.air_velocity(k)).norm();
+  });
+  parallel_for(n, [&](std::size_t k) { region.slip[k] = (region.velocity[k] - region.air_velocity(k)).norm(); });
 }
 
 template <int Dim>
 std::size_t OverlapRegion<Dim>::bytes() const {
-  std::size_t sum =
-      spindrift::bytes(particles) + spindrift::bytes(on_cells) + cells.bytes() + spindrift::bytes(velocity) +
-      spindrift::bytes(slip, stiffness, loading, coupled_mass, swept, face_scratch) +
-      spindrift::bytes(drag_system.lumped, drag_system.residual, drag_system.direction, drag_system.image);
-  for (int axis = 0; axis < Dim; ++axis)
+  std::size_t sum = spindrift::bytes(particles) + spindrift::bytes(on_cells) + cells.bytes() +
+                    spindrift::bytes(velocity) + spindrift::bytes(impulse) +
+                    spindrift::bytes(slip, stiffness, loading, coupled_mass, swept);
+  for (int axis = 0; axis < Dim; ++axis) {
+    const auto& [lumped, residual, direction, image] = drag_system[axis];
     sum += spindrift::bytes(on_faces[axis]) + faces[axis].bytes() +
-           spindrift::bytes(face_mass[axis], face_velocity[axis], start_velocity[axis], face_momentum[axis]);
+           spindrift::bytes(face_mass[axis], face_velocity[axis], start_velocity[axis], face_momentum[axis]) +
+           spindrift::bytes(particle_mass[axis], lumped, residual, direction, image);
+  }
   return sum;
 }
 

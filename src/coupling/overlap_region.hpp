@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "grid/mac_grid.hpp"
 #include "grid/suspension.hpp"
 #include "sph/particles.hpp"
@@ -79,7 +80,7 @@ struct SmokeScratch {
   }
 };
 
-/// What solve_face_velocity() works with, one entry a face.
+/// What solve_face_velocity() works with, one entry a face of its axis.
 struct DragSystem {
   std::vector<double> lumped, residual, direction, image;
 };
@@ -98,15 +99,16 @@ struct OverlapRegion {
   std::array<std::vector<double>, Dim> face_velocity;   ///< u_f, changed by drag and lift [m s^-1]
   std::array<std::vector<double>, Dim> face_momentum;   ///< given to the face so far [kg m s^-1]
 
-  std::vector<Vec<Dim>> velocity;    ///< v of the particle, changed by drag and lift [m s^-1]
-  std::vector<double> slip;          ///< |w| before drag [m s^-1]
-  std::vector<double> stiffness;     ///< a of drag_stiffness(); 0 without drag [s m^-1]
-  std::vector<double> loading;       ///< phi, particle over air mass around the particle
-  std::vector<double> coupled_mass;  ///< m gamma of drag [kg]
-  std::vector<double> swept;         ///< S_sec |w| where smoke sticks [m^Dim s^-1], scratch
-  std::vector<std::uint8_t> spent;   ///< scratch
-  std::vector<double> face_scratch;
-  DragSystem drag_system;
+  std::vector<Vec<Dim>> velocity;                      ///< v of the particle, changed by drag and lift [m s^-1]
+  std::vector<double> slip;                            ///< |w| before drag [m s^-1]
+  std::vector<double> stiffness;                       ///< a of drag_stiffness(); 0 without drag [s m^-1]
+  std::vector<double> loading;                         ///< phi, particle over air mass around the particle
+  std::vector<double> coupled_mass;                    ///< m gamma of drag [kg]
+  std::vector<double> swept;                           ///< S_sec |w| where smoke sticks [m^Dim s^-1], scratch
+  std::vector<std::uint8_t> spent;                     ///< scratch
+  std::vector<Vec<Dim>> impulse;                       ///< on the particle, of drag or lift [kg m s^-1]
+  std::array<std::vector<double>, Dim> particle_mass;  ///< spread to the faces [kg], scratch
+  std::array<DragSystem, Dim> drag_system;
   SmokeScratch<Dim> smoke;
 
   std::size_t size() const { return particles.size(); }
@@ -117,6 +119,13 @@ struct OverlapRegion {
   }
   std::size_t bytes() const;
 };
+
+/// f(axis) for all axes side by side: what one's faces are given does not touch another's.
+template <int Dim, class F>
+void for_each_axis(F&& f) {
+  parallel_for(
+      Dim, [&](std::size_t axis) { f(static_cast<int>(axis)); }, 1);
+}
 
 /// Numbers the grid points around the overlap particles and reads the air's state there.
 /// overlap   in: nonzero for particles of the overlap region, one entry a particle
